@@ -1,0 +1,1 @@
+"""What is issued: content, layout, signing and verification of certificates."""

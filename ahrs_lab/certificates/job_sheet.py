@@ -1,0 +1,72 @@
+"""Everything of a certificate that is not a measured number: laboratory, customer, device, standards, people,
+dates. Read from ``JOB.toml`` (see ``load_job_sheet``) or made from the records by the laboratory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from datetime import date
+from typing import Literal
+
+from ahrs_lab.metrology.conditions import BenchCapability, Standard
+
+CertificateLanguage = Literal["bilingual", "zh", "en"]
+
+
+@dataclass(frozen=True)
+class Party:
+    """A laboratory or a customer, in both scripts; an empty ``name_en`` falls back to ``name``."""
+
+    name: str
+    address: str
+    name_en: str = ""
+    address_en: str = ""
+
+
+@dataclass(frozen=True)
+class Person:
+    """Who certifies: operator (校准员), verifier (核验员) or approver (签发人)."""
+
+    name: str
+    position: str = ""
+    name_en: str = ""
+    position_en: str = ""
+
+
+@dataclass(frozen=True)
+class DeviceUnderTest:
+    """被校对象 (clause 8 f)."""
+
+    name: str
+    manufacturer: str
+    model: str
+    serial_number: str
+    name_en: str = ""
+
+
+@dataclass(frozen=True)
+class JobSheet:
+    """One job. ``limits`` and conformity come with a later release; ``notes`` are printed as given."""
+
+    number: str
+    certificate_number: str
+    laboratory: Party
+    customer: Party
+    device: DeviceUnderTest
+    operator: Person
+    verifier: Person
+    approver: Person
+    received: date
+    calibrated: date
+    issued: date | None = None
+    place: str = ""
+    place_en: str = ""
+    standards: tuple[Standard, ...] = ()
+    capability: BenchCapability = field(default_factory=BenchCapability)
+    procedure: str = "JJF 1536—2015 捷联式惯性航姿仪校准规范"
+    procedure_en: str = "JJF 1536-2015 Calibration Specification for Strapdown Inertial Flight Attitudes"
+    recalibration_months: int = 24
+    rounding: Literal["half-even", "up"] = "half-even"
+    uncertainty_method: Literal["gum", "annex-a"] = "gum"
+    notes: tuple[str, ...] = ()
+    demonstration: bool = False

@@ -1,0 +1,1 @@
+"""Ground: Earth, rotation, sensors; arrays in, arrays out (numpy, scipy)."""

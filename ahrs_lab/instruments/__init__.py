@@ -1,0 +1,1 @@
+"""What a bench is made of: small interfaces, links, protocols, drivers."""

@@ -1,0 +1,1 @@
+"""What is done on a bench: plans, procedures as generators of commands, the runner."""

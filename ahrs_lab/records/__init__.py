@@ -1,0 +1,1 @@
+"""What is kept: people, customers, devices, standards, jobs, runs, the audit trail."""

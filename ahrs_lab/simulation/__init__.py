@@ -1,0 +1,1 @@
+"""A virtual world behind the instruments' interfaces."""

@@ -1,0 +1,1 @@
+"""The screens: Qt widgets and view models; no arithmetic, no file formats."""

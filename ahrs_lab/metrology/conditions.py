@@ -1,14 +1,38 @@
 """What the bench must be (JJF 1536 clause 6): standards used, room, and what violates the clause.
 
-Also where the uncertainty's type B terms come from: each figure knows whether it comes from a certificate or is
-an assumption.
+Also where the uncertainty's type B terms come from: each figure knows whether it comes from a certificate or
+is an assumption.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 from typing import Literal
+
+from ahrs_lab.messages import Message
+from ahrs_lab.metrology.result import Environment, Origin
+
+ARCSEC = math.radians(1.0 / 3600.0)
+"""One second of arc, rad."""
+
+RATE_BANDS_DPS = (1.0, 10.0)
+"""|Ω| from which the second and the third band of clause 6 hold, °/s."""
+RATE_BAND_NAMES = ("|Ω| < 1 °/s", "1 ≤ |Ω| < 10 °/s", "|Ω| ≥ 10 °/s")
+AVERAGING_ANGLES_DEG = (1.0, 10.0, 360.0)
+"""Angle over which each band's rate is averaged."""
+CLAUSE_6_RATE_RELATIVE = (2e-2, 2e-3, 2e-4)
+CLAUSE_6_POSITION_ARCSEC = 10.0
+CLAUSE_6_PERPENDICULARITY_ARCSEC = 5.0
+
+
+def rate_band(rate_dps: float) -> int:
+    """0, 1 or 2: the band of clause 6 that a rate lies in."""
+    size = abs(rate_dps)
+    return sum(size >= limit for limit in RATE_BANDS_DPS)
+
 
 StandardKind = Literal["table", "supply", "fixture", "room", "north", "other"]
 
@@ -46,8 +70,15 @@ class BenchCapability:
     fixture_perpendicularity_arcsec: float = 5.0
     latitude_deg: float = 0.001
     timing_relative: float = 1e-6
+    acquisition_bits: float | None = None
+    """Effective bits of the data acquisition for annex A (its example: 12); None: from the output's
+    resolution."""
     certified: tuple[str, ...] = ()
     """Names of the fields above that a certificate of the standards states; the rest are assumptions."""
+
+    def origin(self, name: str) -> Origin:
+        """Where the figure ``name`` comes from."""
+        return "certificate" if name in self.certified else "assumption"
 
 
 @dataclass(frozen=True)
@@ -56,3 +87,125 @@ class RoomLimits:
 
     temperature_c: tuple[float, float] = (17.0, 23.0)
     humidity_percent: tuple[float, float] = (30.0, 85.0)
+
+
+_NEEDED: tuple[tuple[StandardKind, Message], ...] = (
+    ("table", Message("single-axis position and rate table")),
+    ("supply", Message("linear DC supply")),
+    ("fixture", Message("mounting fixture")),
+)
+
+
+def clause6_violations(
+    standards: Sequence[Standard],
+    *,
+    on_date: date,
+    environment: Environment | None = None,
+    capability: BenchCapability | None = None,
+    limits: RoomLimits | None = None,
+) -> tuple[Message, ...]:
+    """What keeps a job from starting (clause 6), each a sentence; empty where the bench is as it has to be.
+
+    A standard without a certificate number, without a due date or past it; a kind that is missing; the room,
+    where it is known, outside its limits with its spread; the bench worse than the clause's table 1.
+    """
+    found = _standards(standards, on_date)
+    if environment is not None:
+        found += _room(environment, limits or RoomLimits())
+    if capability is not None:
+        found += _bench(capability)
+    return tuple(found)
+
+
+def _standards(standards: Sequence[Standard], on_date: date) -> list[Message]:
+    present = {standard.kind for standard in standards}
+    found = [
+        Message("No {kind} is among the standards used: choose one (clause 6.1).", kind=name)
+        for kind, name in _NEEDED
+        if kind not in present
+    ]
+    for standard in standards:
+        named = {"name": standard.name, "serial_number": standard.serial_number}
+        if not standard.certificate_number.strip():
+            found.append(
+                Message(
+                    "{name} s/n {serial_number} has no certificate number: enter it or use another.", **named
+                )
+            )
+        if standard.due is None:
+            found.append(
+                Message("{name} s/n {serial_number} has no due date: enter it or use another.", **named)
+            )
+        elif standard.due < on_date:
+            found.append(
+                Message(
+                    "The certificate of {name} s/n {serial_number} ran out on {due}: have it calibrated or "
+                    "use another.",
+                    due=standard.due.isoformat(),
+                    **named,
+                )
+            )
+    return found
+
+
+def _room(environment: Environment, limits: RoomLimits) -> list[Message]:
+    found = []
+    low, high = limits.temperature_c
+    value, spread = environment.temperature_c, environment.temperature_spread_c
+    if not (low <= value - spread and value + spread <= high):
+        found.append(
+            Message(
+                "The room was at ({value} ± {spread}) °C; it has to stay within {low} °C to {high} °C "
+                "(clause 6.2.1).",
+                value=round(value, 1),
+                spread=round(spread, 1),
+                low=low,
+                high=high,
+            )
+        )
+    low, high = limits.humidity_percent
+    value, spread = environment.humidity_percent, environment.humidity_spread_percent
+    if not (low <= value - spread and value + spread <= high):
+        found.append(
+            Message(
+                "The humidity was ({value} ± {spread}) %RH; it has to stay within {low} % to {high} % "
+                "(clause 6.2.1).",
+                value=round(value, 1),
+                spread=round(spread, 1),
+                low=low,
+                high=high,
+            )
+        )
+    return found
+
+
+def _bench(capability: BenchCapability) -> list[Message]:
+    found = [
+        Message(
+            "The table's rate is known to {has} (k = 2) for {band}; clause 6.1 asks for {needed}.",
+            has=f"{has:.1e}",
+            band=band,
+            needed=f"{needed:.1e}",
+        )
+        for has, needed, band in zip(
+            capability.rate_relative, CLAUSE_6_RATE_RELATIVE, RATE_BAND_NAMES, strict=True
+        )
+        if has > needed
+    ]
+    if capability.position_arcsec > CLAUSE_6_POSITION_ARCSEC:
+        found.append(
+            Message(
+                "The table's position is known to {has}″ (k = 2); clause 6.1 asks for {needed}″.",
+                has=capability.position_arcsec,
+                needed=CLAUSE_6_POSITION_ARCSEC,
+            )
+        )
+    if capability.fixture_perpendicularity_arcsec > CLAUSE_6_PERPENDICULARITY_ARCSEC:
+        found.append(
+            Message(
+                "The fixture's faces are perpendicular to {has}″; clause 6.2.2 asks for {needed}″.",
+                has=capability.fixture_perpendicularity_arcsec,
+                needed=CLAUSE_6_PERPENDICULARITY_ARCSEC,
+            )
+        )
+    return found

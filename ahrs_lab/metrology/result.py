@@ -1,7 +1,7 @@
 """Results: frozen and complete: value, unit, uncertainty budget, inputs, warnings.
 
-The JSON form (``to_json``/``from_json`` in :mod:`ahrs_lab.metrology.result_json`) is the one of ``evaluate --json``
-and is kept stable; keys beyond the published ones may be added, never taken away.
+The JSON form (``to_json``/``from_json`` in :mod:`ahrs_lab.metrology.result_json`) is the one of ``evaluate
+--json`` and is kept stable; keys beyond the published ones may be added, never taken away.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ MISALIGNMENT_KEYS = ("yx", "zx", "xy", "zy", "xz", "yz")
 class BudgetRow:
     """One source of uncertainty of one quantity.
 
-    ``standard_uncertainty`` is u(x) in the source's own ``unit``; ``contribution`` = |sensitivity|·u(x) in the
-    quantity's unit; ``dof`` may be infinite.
+    ``standard_uncertainty`` is u(x) in the source's own ``unit``; ``contribution`` = |sensitivity|·u(x) in
+    the quantity's unit; ``dof`` may be infinite.
     """
 
     symbol: str
@@ -58,8 +58,8 @@ class Uncertainty:
 
 @dataclass(frozen=True)
 class ScaleFactorResult:
-    """7.1: K, F₀ by (14), (15). ``means`` are mean_j of (10), in the device's unit; ``rates_dps`` the Ω_j used;
-    ``residuals`` v_j of (13); ``static_before``/``static_after`` are F_s, F_e of (11)."""
+    """7.1: K, F₀ by (14), (15). ``means`` are mean_j of (10), in the device's unit; ``rates_dps`` the Ω_j
+    used; ``residuals`` v_j of (13); ``static_before``/``static_after`` are F_s, F_e of (11)."""
 
     axis: AxisName
     K: float
@@ -78,6 +78,8 @@ class ScaleFactorResult:
     segments: tuple[str, ...] = ()
     standard_errors: tuple[float, ...] = ()
     """Standard error of each mean_j from the data, for error bars; the device's unit."""
+    F0_uncertainty: Uncertainty | None = None
+    """Budget of F₀, the device's unit."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,8 @@ class MisalignmentResult:
 
 @dataclass(frozen=True)
 class ResultWarning:
-    """Something the reader of the result has to know; ``segment`` and ``line`` say where (line 0: all of it)."""
+    """Something the reader of the result has to know; ``segment`` and ``line`` say where (line 0: all of
+    it)."""
 
     what: Message
     segment: str = ""
@@ -141,8 +144,8 @@ class Environment:
 class CalibrationResult:
     """All of one calibration. Missing items or axes are absent keys.
 
-    ``deviations`` are settings that leave the standard, each a sentence; ``device``, ``notes`` carry what the
-    bundle's header says (plan, order run, people, dates) for the original record.
+    ``deviations`` are settings that leave the standard, each a sentence; ``device``, ``notes`` carry what
+    the bundle's header says (plan, order run, people, dates) for the original record.
     """
 
     procedure: str

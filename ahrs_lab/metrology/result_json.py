@@ -1,0 +1,344 @@
+"""The result as JSON, as ``evaluate --json`` prints it, and back.
+
+The published keys are never taken away; what is beyond them (budgets, device, notes …) makes the round trip
+complete. Infinite degrees of freedom are null, because JSON has no infinity.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from datetime import date, datetime, time
+from typing import Any, cast, get_args
+
+from ahrs_lab.errors import InputError
+from ahrs_lab.messages import Message
+from ahrs_lab.metrology.json_reader import JsonReader, message_from_json
+from ahrs_lab.metrology.result import (
+    MISALIGNMENT_KEYS,
+    AxisName,
+    BudgetRow,
+    CalibrationResult,
+    Distribution,
+    Environment,
+    Method,
+    MisalignmentResult,
+    Origin,
+    ResultWarning,
+    ScaleFactorResult,
+    Uncertainty,
+    ZeroOffsetResult,
+)
+
+_AXES: tuple[AxisName, ...] = get_args(AxisName)
+_RATE_SOURCES = ("demanded", "table")
+_SCHEDULES = ("standard", "combined", "multi-position")
+
+
+def to_json(result: CalibrationResult) -> dict[str, Any]:
+    """A dict of what JSON knows, full precision; ValueError for a number that is not finite."""
+    data = {
+        "procedure": result.procedure,
+        "bundle_sha256": result.bundle_sha256,
+        "software": result.software,
+        "scale_factor": {axis: _scale_factor(found) for axis, found in result.scale_factor.items()},
+        "zero_offset": {axis: _zero_offset(found) for axis, found in result.zero_offset.items()},
+        "misalignment": {key: _misalignment(found) for key, found in result.misalignment.items()},
+        "warnings": [
+            {
+                "segment": warning.segment,
+                "line": warning.line,
+                "what": warning.what.text(),
+                "message": warning.what.to_json(),
+            }
+            for warning in result.warnings
+        ],
+        "deviations": [
+            {"what": message.text(), "message": message.to_json()} for message in result.deviations
+        ],
+        "environment": _environment(result.environment),
+        "device": _plain(result.device),
+        "site": _plain(result.site),
+        "notes": _plain(result.notes),
+        "simulated": result.simulated,
+    }
+    json.dumps(data, allow_nan=False)
+    return data
+
+
+def to_json_text(result: CalibrationResult) -> str:
+    """One JSON object, UTF-8 characters as they are."""
+    return json.dumps(to_json(result), allow_nan=False, ensure_ascii=False, indent=1)
+
+
+def from_json_text(text: str) -> CalibrationResult:
+    """The inverse of :func:`to_json_text`; raises InputError for what is no result."""
+    try:
+        return from_json(json.loads(text))
+    except (json.JSONDecodeError, RecursionError) as error:
+        raise InputError("The result is not valid JSON: {reason}", reason=str(error)) from error
+
+
+def from_json(data: object) -> CalibrationResult:
+    """The inverse of :func:`to_json`; raises InputError that names the key at fault."""
+    reader = JsonReader(data)
+    return CalibrationResult(
+        procedure=reader.text("procedure"),
+        bundle_sha256=reader.text("bundle_sha256"),
+        software=reader.text("software"),
+        scale_factor={
+            cast(AxisName, axis): _read_scale_factor(cast(AxisName, axis), member)
+            for axis, member in reader.members("scale_factor", _AXES).items()
+        },
+        zero_offset={
+            cast(AxisName, axis): _read_zero_offset(cast(AxisName, axis), member)
+            for axis, member in reader.members("zero_offset", _AXES).items()
+        },
+        misalignment={
+            key: _read_misalignment(key, member)
+            for key, member in reader.members("misalignment", MISALIGNMENT_KEYS).items()
+        },
+        warnings=tuple(_read_warning(entry) for entry in reader.objects("warnings")),
+        deviations=tuple(_read_sentence(entry) for entry in reader.objects("deviations")),
+        environment=_read_environment(reader),
+        device=dict(reader.object("device").data) if reader.has("device") else {},
+        site=dict(reader.object("site").data) if reader.has("site") else {},
+        notes=dict(reader.object("notes").data) if reader.has("notes") else {},
+        simulated=reader.data.get("simulated") is True,
+    )
+
+
+def _uncertainty(found: Uncertainty) -> dict[str, Any]:
+    return {
+        "standard_uncertainty": found.standard,
+        "expanded_uncertainty": found.expanded,
+        "coverage_factor": found.coverage_factor,
+        "dof": _dof(found.dof),
+        "method": found.method,
+        "budget": [_row(row) for row in found.rows],
+    }
+
+
+def _read_uncertainty(reader: JsonReader) -> Uncertainty:
+    return Uncertainty(
+        standard=reader.number("standard_uncertainty"),
+        expanded=reader.number("expanded_uncertainty"),
+        coverage_factor=reader.number("coverage_factor"),
+        dof=reader.dof("dof"),
+        method=reader.choice("method", get_args(Method), "gum"),
+        rows=tuple(_read_row(entry) for entry in reader.objects("budget")),
+    )
+
+
+def _row(row: BudgetRow) -> dict[str, Any]:
+    return {
+        "symbol": row.symbol,
+        "source": row.source.text(),
+        "message": row.source.to_json(),
+        "unit": row.unit,
+        "standard_uncertainty": row.standard_uncertainty,
+        "sensitivity": row.sensitivity,
+        "contribution": row.contribution,
+        "kind": row.kind,
+        "distribution": row.distribution,
+        "divisor": row.divisor,
+        "dof": _dof(row.dof),
+        "origin": row.origin,
+        "estimate": row.estimate,
+        "half_width": row.half_width,
+    }
+
+
+def _read_row(reader: JsonReader) -> BudgetRow:
+    return BudgetRow(
+        symbol=reader.text("symbol"),
+        source=message_from_json(reader.value("message"), reader.key("message")),
+        unit=reader.text("unit"),
+        standard_uncertainty=reader.number("standard_uncertainty"),
+        sensitivity=reader.number("sensitivity"),
+        contribution=reader.number("contribution"),
+        kind=reader.choice("kind", ("A", "B")),
+        distribution=reader.choice("distribution", get_args(Distribution)),
+        divisor=reader.number("divisor"),
+        dof=reader.dof("dof"),
+        origin=reader.choice("origin", get_args(Origin)),
+        estimate=reader.optional_number("estimate"),
+        half_width=reader.optional_number("half_width"),
+    )
+
+
+def _scale_factor(found: ScaleFactorResult) -> dict[str, Any]:
+    return {
+        "K": found.K,
+        "F0": found.F0,
+        "unit": found.unit,
+        **_uncertainty(found.uncertainty),
+        "rates_dps": list(found.rates_dps),
+        "means": list(found.means),
+        "residuals": list(found.residuals),
+        "nonlinearity_ppm": found.nonlinearity_ppm,
+        "asymmetry_ppm": found.asymmetry_ppm,
+        "demanded_rates_dps": list(found.demanded_rates_dps),
+        "standard_errors": list(found.standard_errors),
+        "static_before": found.static_before,
+        "static_after": found.static_after,
+        "rate_source": found.rate_source,
+        "segments": list(found.segments),
+        "F0_uncertainty": None if found.F0_uncertainty is None else _uncertainty(found.F0_uncertainty),
+    }
+
+
+def _read_scale_factor(axis: AxisName, reader: JsonReader) -> ScaleFactorResult:
+    rates = reader.numbers("rates_dps")
+    return ScaleFactorResult(
+        axis=axis,
+        K=reader.number("K"),
+        F0=reader.number("F0"),
+        unit=reader.text("unit"),
+        rates_dps=rates,
+        demanded_rates_dps=reader.numbers("demanded_rates_dps", rates),
+        means=_as_many(reader, "means", rates),
+        residuals=_as_many(reader, "residuals", rates),
+        static_before=reader.number("static_before", 0.0),
+        static_after=reader.number("static_after", 0.0),
+        nonlinearity_ppm=reader.number("nonlinearity_ppm"),
+        asymmetry_ppm=reader.number("asymmetry_ppm"),
+        uncertainty=_read_uncertainty(reader),
+        rate_source=reader.choice("rate_source", _RATE_SOURCES, "demanded"),
+        segments=reader.texts("segments"),
+        standard_errors=reader.numbers("standard_errors", ()),
+        F0_uncertainty=_read_uncertainty(reader.object("F0_uncertainty"))
+        if reader.has("F0_uncertainty")
+        else None,
+    )
+
+
+def _as_many(reader: JsonReader, name: str, rates: tuple[float, ...]) -> tuple[float, ...]:
+    found = reader.numbers(name)
+    if len(found) != len(rates):
+        raise InputError(
+            "In the result, {key} has {count} numbers, but there are {rates} rates.",
+            key=reader.key(name),
+            count=len(found),
+            rates=len(rates),
+        )
+    return found
+
+
+def _zero_offset(found: ZeroOffsetResult) -> dict[str, Any]:
+    return {
+        "B": found.B,
+        "unit": found.unit,
+        "duration_s": found.duration_s,
+        "angles_deg": list(found.angles_deg),
+        **_uncertainty(found.uncertainty),
+        "schedule": found.schedule,
+        "orientations": list(found.orientations),
+        "azimuths_deg": list(found.azimuths_deg),
+        "durations_s": list(found.durations_s),
+        "repeatability_dps": found.repeatability_dps,
+        "earth_rate_check": None if found.earth_rate_check is None else dict(found.earth_rate_check),
+        "segments": list(found.segments),
+    }
+
+
+def _read_zero_offset(axis: AxisName, reader: JsonReader) -> ZeroOffsetResult:
+    check = reader.object("earth_rate_check") if reader.has("earth_rate_check") else None
+    return ZeroOffsetResult(
+        axis=axis,
+        B=reader.number("B"),
+        unit=reader.text("unit"),
+        duration_s=reader.number("duration_s"),
+        angles_deg=reader.numbers("angles_deg"),
+        uncertainty=_read_uncertainty(reader),
+        schedule=reader.choice("schedule", _SCHEDULES, "standard"),
+        orientations=reader.texts("orientations"),
+        azimuths_deg=reader.numbers("azimuths_deg", ()),
+        durations_s=reader.numbers("durations_s", ()),
+        repeatability_dps=reader.optional_number("repeatability_dps"),
+        earth_rate_check=None if check is None else {name: check.number(name) for name in check.data},
+        segments=reader.texts("segments"),
+    )
+
+
+def _misalignment(found: MisalignmentResult) -> dict[str, Any]:
+    return {
+        "L": found.L,
+        "unit": found.unit,
+        "turns": found.turns,
+        "angle_positive_deg": found.angle_positive_deg,
+        "angle_negative_deg": found.angle_negative_deg,
+        **_uncertainty(found.uncertainty),
+        "rate_dps": found.rate_dps,
+        "duration_s": found.duration_s,
+        "segments": list(found.segments),
+    }
+
+
+def _read_misalignment(key: str, reader: JsonReader) -> MisalignmentResult:
+    return MisalignmentResult(
+        output_axis=cast(AxisName, key[0]),
+        turned_axis=cast(AxisName, key[1]),
+        L=reader.number("L"),
+        turns=reader.whole("turns"),
+        angle_positive_deg=reader.number("angle_positive_deg"),
+        angle_negative_deg=reader.number("angle_negative_deg"),
+        uncertainty=_read_uncertainty(reader),
+        unit=reader.text("unit"),
+        rate_dps=reader.number("rate_dps", 0.0),
+        duration_s=reader.number("duration_s", 0.0),
+        segments=reader.texts("segments"),
+    )
+
+
+def _read_warning(reader: JsonReader) -> ResultWarning:
+    return ResultWarning(_read_sentence(reader), reader.text("segment"), reader.whole("line"))
+
+
+def _read_sentence(reader: JsonReader) -> Message:
+    """``message`` where our own software wrote it, else the plain sentence."""
+    name = "message" if reader.has("message") else "what"
+    return message_from_json(reader.value(name), reader.key(name))
+
+
+def _environment(found: Environment | None) -> dict[str, float] | None:
+    if found is None:
+        return None
+    return {
+        "temperature_c": found.temperature_c,
+        "temperature_spread_c": found.temperature_spread_c,
+        "humidity_percent": found.humidity_percent,
+        "humidity_spread_percent": found.humidity_spread_percent,
+    }
+
+
+def _read_environment(reader: JsonReader) -> Environment | None:
+    if not reader.has("environment"):
+        return None
+    inside = reader.object("environment")
+    return Environment(
+        temperature_c=inside.number("temperature_c"),
+        temperature_spread_c=inside.number("temperature_spread_c"),
+        humidity_percent=inside.number("humidity_percent"),
+        humidity_spread_percent=inside.number("humidity_spread_percent"),
+    )
+
+
+def _dof(dof: float) -> float | None:
+    return dof if math.isfinite(dof) else None
+
+
+def _plain(value: object) -> Any:
+    """What JSON knows: dates of TOML become ISO 8601 text, numbers that are not finite null."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(entry) for entry in value]
+    if isinstance(value, (datetime, date, time)):
+        return value.isoformat()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    if value is None or isinstance(value, (str, bool, int, float)):
+        return value
+    return str(value)

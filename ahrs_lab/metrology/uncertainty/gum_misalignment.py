@@ -1,0 +1,129 @@
+"""Budget of L (JCGM 100): noise and drift of the two recordings, and how well the turned axis is the
+case's."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ahrs_lab.messages import Message
+from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
+from ahrs_lab.metrology.result import BudgetRow, Uncertainty
+from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
+from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_variance
+
+
+@dataclass(frozen=True)
+class MisalignmentEvidence:
+    """The two recordings of n turns as output axis i shows them; rates in °/s.
+
+    ``repeats`` pairs were averaged; ``starts_s`` of the + and the − recording. ``rest_rate_dps`` is what the
+    output shows at rest: with recordings of different duration it does not cancel.
+    """
+
+    turns: int
+    angle_positive_deg: float
+    angle_negative_deg: float
+    duration_positive_s: float
+    duration_negative_s: float
+    starts_s: tuple[float, float]
+    repeats: int
+    samples: int
+    resolution_dps: float
+    dithered: bool
+    noise: NoiseModel
+    rest_rate_dps: float
+    scale_relative: float = 0.0
+
+
+def misalignment_uncertainty(
+    L: float, evidence: MisalignmentEvidence, capability: BenchCapability
+) -> Uncertainty:
+    """u_c and U of L in rad, ∂L/∂N = ±1/(720·n)."""
+    per_degree = 1.0 / (720.0 * evidence.turns)
+    rows = [*_recording_rows(evidence, per_degree), *_axis_rows(evidence, L, capability)]
+    samples = evidence.samples if evidence.dithered else 1
+    duration = 0.5 * (evidence.duration_positive_s + evidence.duration_negative_s)
+    rows.append(
+        from_half_width(
+            "q",
+            Message("Resolution of the output"),
+            "deg/s",
+            0.5 * evidence.resolution_dps,
+            math.sqrt(2.0 / samples) * duration * per_degree,
+            "data",
+        )
+    )
+    if evidence.scale_relative > 0.0:
+        rows.append(
+            type_a(
+                "K", Message("Fitted scale factor"), "1", evidence.scale_relative, -L, math.inf, estimate=1.0
+            )
+        )
+    return combine(rows)
+
+
+def _recording_rows(evidence: MisalignmentEvidence, per_degree: float) -> list[BudgetRow]:
+    white, dof, repeats = evidence.noise.white, evidence.noise.white_dof, evidence.repeats
+    duration = 0.5 * (evidence.duration_positive_s + evidence.duration_negative_s)
+    drift = drift_variance(
+        np.array([1.0, -1.0]),
+        np.array(evidence.starts_s),
+        np.array([evidence.duration_positive_s, evidence.duration_negative_s]),
+        evidence.noise,
+    )
+    unequal = abs(evidence.duration_positive_s - evidence.duration_negative_s)
+    return [
+        type_a(
+            "N⁺",
+            Message("Sensor noise in the positive turns"),
+            "deg",
+            white * math.sqrt(evidence.duration_positive_s / repeats),
+            per_degree,
+            dof,
+            estimate=evidence.angle_positive_deg,
+        ),
+        type_a(
+            "N⁻",
+            Message("Sensor noise in the negative turns"),
+            "deg",
+            white * math.sqrt(evidence.duration_negative_s / repeats),
+            -per_degree,
+            dof,
+            estimate=evidence.angle_negative_deg,
+        ),
+        type_a(
+            "D",
+            Message("Drift of the zero between the recordings"),
+            "deg",
+            math.sqrt(drift / repeats) * duration,
+            per_degree,
+            evidence.noise.drift_dof,
+        ),
+        from_half_width(
+            "ΔT",
+            Message("Different duration of the two recordings"),
+            "s",
+            unequal,
+            evidence.rest_rate_dps * per_degree,
+            "data",
+        ),
+    ]
+
+
+def _axis_rows(evidence: MisalignmentEvidence, L: float, capability: BenchCapability) -> list[BudgetRow]:
+    """What tilts the case's axis from the axis it is turned about is shown like a misalignment."""
+    turned = math.radians(360.0 * evidence.turns)
+
+    def row(symbol: str, source: Message, name: str, sensitivity: float) -> BudgetRow:
+        expanded = getattr(capability, name) * ARCSEC
+        return from_expanded(symbol, source, "rad", expanded, sensitivity, capability.origin(name))
+
+    return [
+        row("w", Message("Wobble of the table's axis"), "wobble_arcsec", 1.0),
+        row("β", Message("Seat of the case against the table's axis"), "level_arcsec", 1.0),
+        row("γ", Message("Perpendicularity of the fixture"), "fixture_perpendicularity_arcsec", 1.0),
+        row("θ", Message("Angle turned by the table"), "position_arcsec", -L / turned),
+    ]

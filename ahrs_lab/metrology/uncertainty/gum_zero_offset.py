@@ -1,0 +1,188 @@
+"""Budget of B (JCGM 100): noise of the dwells, and what pointing and levelling errors let in of the Earth's
+rate.
+
+A small error δ of the case's attitude (a rotation vector in east, north, up) changes the rate felt along the
+direction d by δ·(d × ω). How far the reversals cancel that depends on what the error is tied to, so each
+source is summed over the positions with its own correlation.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ahrs_lab.messages import Message
+from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
+from ahrs_lab.metrology.result import BudgetRow, Uncertainty
+from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
+from ahrs_lab.metrology.uncertainty.noise import NoiseModel
+from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ZeroOffsetEvidence:
+    """The n dwells of one axis, in order. Rates in °/s.
+
+    ``directions``: shape (n, 3), where the axis points, east-north-up. ``turned_deg``: shape (n,), how far
+    the table was turned from the first stop of its mounting; ``mountings``: shape (n,), equal where the case
+    was not re-mounted between. ``resolution_dps``, ``samples``, ``dithered`` as for the scale factor.
+    ``scale_relative``: standard uncertainty of the fitted K where counts were scaled by it, else 0.
+    """
+
+    directions: Array
+    turned_deg: Array
+    mountings: tuple[str, ...]
+    angles_deg: Array
+    durations_s: Array
+    repeats: Array
+    samples: Array
+    resolution_dps: float
+    dithered: bool
+    noise: NoiseModel
+    latitude_deg: float
+    scale_relative: float = 0.0
+    time_scaled: bool = False
+
+
+def zero_offset_uncertainty(
+    B: float, evidence: ZeroOffsetEvidence, capability: BenchCapability
+) -> Uncertainty:
+    """u_c and U of B in °/s. Rate random walk and flicker during the dwells belong to B, not to U (7.2)."""
+    rows = [*_dwell_rows(evidence), *_earth_rows(evidence, capability)]
+    samples = evidence.samples if evidence.dithered else np.ones_like(evidence.samples)
+    count = len(evidence.durations_s)
+    rows.append(
+        from_half_width(
+            "q",
+            Message("Resolution of the output"),
+            "deg/s",
+            0.5 * evidence.resolution_dps,
+            math.sqrt(float(np.sum(1.0 / samples))) / count,
+            "data",
+        )
+    )
+    if evidence.time_scaled:
+        rows.append(
+            from_expanded(
+                "t",
+                Message("Time base"),
+                "1",
+                capability.timing_relative,
+                -B,
+                capability.origin("timing_relative"),
+            )
+        )
+    if evidence.scale_relative > 0.0:
+        rows.append(
+            type_a(
+                "K", Message("Fitted scale factor"), "1", evidence.scale_relative, -B, math.inf, estimate=1.0
+            )
+        )
+    return combine(rows)
+
+
+def _dwell_rows(evidence: ZeroOffsetEvidence) -> list[BudgetRow]:
+    """u(N_i) = N·√T from the white noise, ∂B/∂N_i = 1/(n·T_i); repeats are averaged."""
+    count = len(evidence.durations_s)
+    return [
+        type_a(
+            f"N_{index}",
+            Message("Sensor noise in position {position}", position=index),
+            "deg",
+            evidence.noise.white * math.sqrt(duration / repeats),
+            1.0 / (count * duration),
+            evidence.noise.white_dof,
+            estimate=float(angle),
+        )
+        for index, (duration, repeats, angle) in enumerate(
+            zip(evidence.durations_s, evidence.repeats, evidence.angles_deg, strict=True), start=1
+        )
+    ]
+
+
+def earth_rate_vector(latitude_deg: float) -> Array:
+    """Shape (3,): ω_ie in east, north, up, °/s."""
+    latitude = math.radians(latitude_deg)
+    return EARTH_RATE_DPS * np.array([0.0, math.cos(latitude), math.sin(latitude)])
+
+
+def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> list[BudgetRow]:
+    weight = 1.0 / len(evidence.directions)
+    omega = earth_rate_vector(evidence.latitude_deg)
+    leverage = weight * np.cross(evidence.directions, omega)  # ∂B/∂δ of each position, °/s per rad
+    common = leverage.sum(axis=0)
+    with_table = _per_mounting(_turned_back(leverage, evidence.turned_deg), evidence.mountings)
+    tilts = np.hypot(with_table[:, 0], with_table[:, 1])
+    stops = _first_of_mounting(evidence.mountings)
+    latitude = math.radians(evidence.latitude_deg)
+    change = EARTH_RATE_DPS * np.array([0.0, -math.sin(latitude), math.cos(latitude)])
+    cos_phi = Message("Azimuth reference (north); reversal cancels it")
+
+    def row(symbol: str, source: Message, name: str, sensitivity: float, to_rad: float = ARCSEC) -> BudgetRow:
+        expanded = getattr(capability, name) * to_rad
+        return from_expanded(symbol, source, "rad", expanded, sensitivity, capability.origin(name))
+
+    return [
+        row(
+            "α",
+            Message("Table position from stop to stop, through the Earth's rate"),
+            "position_arcsec",
+            math.sqrt(float(np.sum(leverage[~stops, 2] ** 2))),
+        ),
+        row("ψ", cos_phi, "azimuth_arcsec", _clean(float(common[2]))),
+        row(
+            "τ",
+            Message("Table axis against the vertical; reversal cancels it"),
+            "axis_tilt_arcsec",
+            _clean(math.hypot(float(common[0]), float(common[1]))),
+        ),
+        # a seat that is not level turns with the table, and in every mounting alike
+        row(
+            "β",
+            Message("Level of the case, through the Earth's rate"),
+            "level_arcsec",
+            _clean(float(tilts.sum())),
+        ),
+        row(
+            "γ",
+            Message("Perpendicularity of the fixture, through the Earth's rate"),
+            "fixture_perpendicularity_arcsec",
+            _clean(math.sqrt(float(np.sum(tilts**2)))),
+        ),
+        row(
+            "φ",
+            Message("Latitude; reversal cancels it"),
+            "latitude_deg",
+            _clean(weight * float((evidence.directions @ change).sum())),
+            math.radians(1.0),
+        ),
+    ]
+
+
+def _clean(sensitivity: float) -> float:
+    """A sum that cancels but for the last bits is 0."""
+    return 0.0 if abs(sensitivity) < 1e-12 * EARTH_RATE_DPS else sensitivity
+
+
+def _turned_back(leverage: Array, turned_deg: Array) -> Array:
+    """Into axes that turn with the table: an error fixed to it is the same vector at every stop."""
+    angle = np.radians(turned_deg)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    east = cosine * leverage[:, 0] + sine * leverage[:, 1]
+    north = -sine * leverage[:, 0] + cosine * leverage[:, 1]
+    return np.column_stack([east, north, leverage[:, 2]])
+
+
+def _per_mounting(vectors: Array, mountings: tuple[str, ...]) -> Array:
+    names = sorted(set(mountings))
+    return np.array([vectors[[m == name for m in mountings]].sum(axis=0) for name in names])
+
+
+def _first_of_mounting(mountings: tuple[str, ...]) -> NDArray[np.bool_]:
+    """The first stop of a mounting is the reference from which the others are turned."""
+    return np.array([mounting not in mountings[:index] for index, mounting in enumerate(mountings)])

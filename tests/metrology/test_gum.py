@@ -1,0 +1,182 @@
+"""Sensitivities of the budgets against the analytic results of references.md and against rotated Earth
+rates."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
+from ahrs_lab.metrology.result import BudgetRow, Uncertainty
+from ahrs_lab.metrology.scale_factor import fit_scale_factor
+from ahrs_lab.metrology.uncertainty.gum_misalignment import MisalignmentEvidence, misalignment_uncertainty
+from ahrs_lab.metrology.uncertainty.gum_scale_factor import ScaleFactorEvidence, scale_factor_uncertainty
+from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence, zero_offset_uncertainty
+from ahrs_lab.metrology.uncertainty.noise import NoiseModel
+
+EARTH_DPS = math.degrees(7.292115e-5)
+LATITUDE = 40.0
+E, N, U = np.eye(3)
+BENCH = BenchCapability()
+
+
+def row(found: Uncertainty, symbol: str) -> BudgetRow:
+    return next(entry for entry in found.rows if entry.symbol == symbol)
+
+
+def four_positions(directions: tuple[np.ndarray, ...] = (E, E, -E, -E)) -> ZeroOffsetEvidence:
+    """Table 2: 1 and 3 on one mounting, 2 and 4 on the other."""
+    return ZeroOffsetEvidence(
+        directions=np.array(directions),
+        turned_deg=np.array([0.0, 0.0, 180.0, 180.0]),
+        mountings=("z+", "z-", "z+", "z-"),
+        angles_deg=np.zeros(4),
+        durations_s=np.full(4, 1800.0),
+        repeats=np.ones(4),
+        samples=np.full(4, 18000.0),
+        resolution_dps=0.0,
+        dithered=True,
+        noise=NoiseModel(white=2.5e-3, white_dof=100.0),
+        latitude_deg=LATITUDE,
+    )
+
+
+def test_an_azimuth_error_of_the_stops_leaves_the_horizontal_rate_over_root_eight() -> None:
+    found = row(zero_offset_uncertainty(0.0, four_positions(), BENCH), "α")
+    assert found.sensitivity == pytest.approx(EARTH_DPS * math.cos(math.radians(LATITUDE)) / math.sqrt(8.0))
+    assert found.standard_uncertainty == pytest.approx(5.0 * ARCSEC)
+
+
+def test_a_tilt_of_the_case_leaves_the_vertical_rate() -> None:
+    found = zero_offset_uncertainty(0.0, four_positions(), BENCH)
+    vertical = EARTH_DPS * math.sin(math.radians(LATITUDE))
+    assert row(found, "β").sensitivity == pytest.approx(vertical)
+    assert row(found, "γ").sensitivity == pytest.approx(vertical / math.sqrt(2.0))
+
+
+@pytest.mark.parametrize("directions", [(E, E, -E, -E), (N, -N, -N, N), (U, -U, U, -U)])
+def test_reversal_cancels_north_plumb_and_latitude(directions: tuple[np.ndarray, ...]) -> None:
+    found = zero_offset_uncertainty(0.0, four_positions(directions), BENCH)
+    assert [row(found, symbol).contribution for symbol in "ψτφ"] == [0.0, 0.0, 0.0]
+
+
+def test_the_noise_of_four_positions_is_half_the_density_over_root_T() -> None:
+    found = zero_offset_uncertainty(0.0, four_positions(), replace(BENCH, level_arcsec=0.0))
+    noise = [row(found, f"N_{i}") for i in range(1, 5)]
+    assert math.sqrt(sum(entry.contribution**2 for entry in noise)) == pytest.approx(
+        2.5e-3 / (2.0 * math.sqrt(1800.0))
+    )
+    assert {entry.sensitivity for entry in noise} == {1.0 / 7200.0}
+    assert found.dof == pytest.approx(400.0, rel=0.05)
+
+
+def test_counts_bring_the_uncertainty_of_their_scale_factor() -> None:
+    found = zero_offset_uncertainty(0.02, replace(four_positions(), scale_relative=1e-4), BENCH)
+    assert row(found, "K").contribution == pytest.approx(2e-6)
+
+
+def test_the_sensitivities_are_those_of_a_tilted_case() -> None:
+    """Rotate the case by hand by a large-ish error that turns with the table and look at what B becomes."""
+    evidence = four_positions()
+    tilt = 1e-4
+    omega = EARTH_DPS * np.array([0.0, math.cos(math.radians(LATITUDE)), math.sin(math.radians(LATITUDE))])
+    felt = []
+    for direction, turned in zip(evidence.directions, evidence.turned_deg, strict=True):
+        # a seat tilted about the table's own "north" axis
+        axis = np.array([-math.sin(math.radians(turned)), math.cos(math.radians(turned)), 0.0])
+        felt.append((direction + tilt * np.cross(axis, direction)) @ omega)
+    found = row(zero_offset_uncertainty(0.0, evidence, BENCH), "β")
+    assert abs(float(np.mean(felt))) / tilt == pytest.approx(found.sensitivity, rel=1e-9)
+
+
+RATES = np.array([-300.0, -200.0, -5.0, -0.5, 0.5, 5.0, 200.0, 310.0])
+
+
+def scale_factor(noise: float = 1e-3, rate_source: str = "demanded") -> Uncertainty:
+    count = len(RATES)
+    fit = fit_scale_factor(RATES, 1.01 * RATES, 0.0, 0.0)
+    evidence = ScaleFactorEvidence(
+        standard_errors=np.full(count, noise),
+        dofs=np.full(count, 19.0),
+        durations_s=np.full(count, 30.0),
+        starts_s=np.linspace(60.0, 30.0 + 30.0 * count, count),
+        rest_standard_errors=(noise, noise),
+        rest_dofs=(39.0, 39.0),
+        rest_durations_s=(60.0, 60.0),
+        rest_starts_s=(0.0, 300.0),
+        samples=np.full(count, 300.0),
+        resolution=0.0,
+        dithered=True,
+        noise=NoiseModel(),
+    )
+    found, _ = scale_factor_uncertainty(fit, evidence, BENCH, device_unit="deg/s", rate_source=rate_source)  # type: ignore[arg-type]
+    return found
+
+
+def test_the_noise_of_K_is_that_of_the_regression() -> None:
+    spread = float(((RATES - RATES.mean()) ** 2).sum())
+    assert row(scale_factor(), "F̄").contribution == pytest.approx(1e-3 / math.sqrt(spread))
+
+
+def test_a_rate_error_common_to_a_band_moves_K_as_refitting_does() -> None:
+    rows = [entry for entry in scale_factor().rows if entry.symbol == "Ω"]
+    bands = [np.abs(RATES) < 1, (np.abs(RATES) >= 1) & (np.abs(RATES) < 10), np.abs(RATES) >= 10]
+    assert [entry.standard_uncertainty for entry in rows] == pytest.approx([1e-2, 1e-3, 1e-4])
+    for entry, band in zip(rows, bands, strict=True):
+        # the table turns faster than demanded by 1e-3 in this band: F grows, the Ω of the fit do not
+        faster = np.where(band, 1.0 + 1e-3, 1.0)
+        change = fit_scale_factor(RATES, 1.01 * RATES * faster, 0.0, 0.0).K - 1.01
+        assert abs(entry.sensitivity) == pytest.approx(abs(change) / 1e-3, rel=1e-9)
+    assert sum(entry.sensitivity for entry in rows) == pytest.approx(-1.01)
+
+
+def test_measured_rates_replace_the_tables_rate_by_its_angle_and_time() -> None:
+    found = scale_factor(rate_source="table")
+    symbols = {entry.symbol for entry in found.rows}
+    assert {"θ", "t"} <= symbols
+    assert "Ω" not in symbols
+    # two readings of 5″ standard uncertainty over 30 s at each rate
+    spread = float(((RATES - RATES.mean()) ** 2).sum())
+    each = math.sqrt(2.0) * 5.0 / 3600.0 / 30.0
+    assert row(found, "θ").contribution == pytest.approx(1.01 * each / math.sqrt(spread))
+
+
+def turns() -> MisalignmentEvidence:
+    return MisalignmentEvidence(
+        turns=10,
+        angle_positive_deg=3.6,
+        angle_negative_deg=-3.6,
+        duration_positive_s=36.0,
+        duration_negative_s=36.0,
+        starts_s=(0.0, 40.0),
+        repeats=1,
+        samples=360,
+        resolution_dps=0.0,
+        dithered=True,
+        noise=NoiseModel(white=2.5e-3, white_dof=100.0),
+        rest_rate_dps=0.0,
+    )
+
+
+def test_the_noise_of_L_is_the_density_over_root_720_n_rate() -> None:
+    found = misalignment_uncertainty(1e-3, turns(), BENCH)
+    noise = math.hypot(row(found, "N⁺").contribution, row(found, "N⁻").contribution)
+    assert noise == pytest.approx(2.5e-3 / math.sqrt(720.0 * 10 * 100.0))
+    assert row(found, "N⁺").sensitivity == -row(found, "N⁻").sensitivity == 1.0 / 7200.0
+
+
+def test_wobble_and_seat_enter_L_directly() -> None:
+    found = misalignment_uncertainty(1e-3, turns(), BENCH)
+    assert row(found, "w").contribution == pytest.approx(1.0 * ARCSEC)
+    assert row(found, "β").contribution == pytest.approx(10.0 * ARCSEC)
+    assert row(found, "γ").contribution == pytest.approx(2.5 * ARCSEC)
+
+
+def test_pairs_of_turns_that_are_repeated_average_the_noise() -> None:
+    once, twice = (
+        misalignment_uncertainty(1e-3, replace(turns(), repeats=repeats), BENCH) for repeats in (1, 2)
+    )
+    assert row(twice, "N⁺").contribution == pytest.approx(row(once, "N⁺").contribution / math.sqrt(2.0))

@@ -1,0 +1,142 @@
+"""Noise from recordings against published Allan variances and against noise of known size."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from ahrs_lab.metrology.uncertainty.noise import (
+    NoiseModel,
+    _pooled_allan,
+    batch_means,
+    drift_structure,
+    drift_variance,
+    fit_noise,
+    neighbour_variance,
+    resolution_step,
+    standard_error,
+)
+
+NBS14 = np.array([892.0, 809.0, 823.0, 798.0, 671.0, 644.0, 883.0, 903.0, 677.0])
+
+
+def test_the_allan_variance_is_that_of_nist_sp_1065() -> None:
+    taus, variances, counts = _pooled_allan([NBS14], 1.0)
+    assert taus[:2].tolist() == [1.0, 2.0]
+    assert np.sqrt(variances[:2]) == pytest.approx([91.22945, 115.8082], rel=1e-6)
+    assert counts[:2].tolist() == [8.0, 3.0]
+    assert neighbour_variance(NBS14)[0] == pytest.approx(91.22945**2, rel=1e-6)
+
+
+def test_the_set_of_a_thousand_points_too() -> None:
+    state, values = 1234567890, []
+    for _ in range(1000):
+        values.append(state / 2147483647)
+        state = 16807 * state % 2147483647
+    data = np.array(values)
+    assert math.sqrt(neighbour_variance(data)[0]) == pytest.approx(0.2922319, rel=1e-6)
+    by_ten = data.reshape(-1, 10).mean(axis=1)
+    assert math.sqrt(neighbour_variance(by_ten)[0]) == pytest.approx(0.09965736, rel=1e-6)
+
+
+def test_batches_are_of_about_a_second() -> None:
+    means, batch_s = batch_means(np.arange(25.0), 0.1)
+    assert (means.tolist(), batch_s) == ([4.5, 14.5], 1.0)
+    assert batch_means(np.arange(4.0), 2.0)[1] == 2.0
+    assert len(batch_means(np.arange(12.0), 0.1)[0]) == 12
+
+
+def test_offsets_between_recordings_are_no_noise() -> None:
+    rng = np.random.default_rng(1)
+    dwells = [rng.normal(level, 1e-3, 600) for level in (0.0, 5.0, -3.0)]
+    assert fit_noise(dwells, 1.0).white == pytest.approx(1e-3, rel=0.05)
+
+
+def test_white_noise_has_its_density() -> None:
+    rng = np.random.default_rng(2)
+    found = fit_noise([rng.normal(0.0, 2e-3, 1800) for _ in range(4)], 1.0)
+    # 4 × 1800 one-second means: the relative error of N is 1/√(2·4800)
+    assert found.white == pytest.approx(2e-3, rel=4.0 / math.sqrt(2 * 4800))
+    assert found.white_dof == pytest.approx(4800, rel=0.01)
+
+
+def test_a_random_walk_is_told_from_white_noise() -> None:
+    rng = np.random.default_rng(3)
+    walk, white = 1e-4, 1e-3
+    dwells = [np.cumsum(rng.normal(0.0, walk, 3600)) + rng.normal(0.0, white, 3600) for _ in range(8)]
+    found = fit_noise(dwells, 1.0)
+    assert found.walk == pytest.approx(walk, rel=0.15)
+    assert found.white == pytest.approx(white, rel=0.05)
+
+
+def test_an_output_correlated_over_seconds_has_the_uncertainty_of_its_long_mean() -> None:
+    """A first-order filter of 2 s: neighbours' scatter says far too little."""
+    rng = np.random.default_rng(4)
+    density, pole = 1e-3, math.exp(-0.5)
+    dwells = []
+    for _ in range(8):
+        noise = rng.normal(0.0, density, 4000)
+        out = np.empty_like(noise)
+        state = 0.0
+        for i, drive in enumerate(noise):
+            state = pole * state + (1.0 - pole) * drive
+            out[i] = state
+        dwells.append(out[100:])
+    found = fit_noise(dwells, 1.0)
+    naive, _ = standard_error(dwells[0])
+    stated, _ = standard_error(dwells[0], found.inflation)
+    truth = density / math.sqrt(len(dwells[0]))
+    assert naive < 0.5 * truth
+    assert stated == pytest.approx(truth, rel=0.15)
+    assert found.white == pytest.approx(density, rel=0.15)
+
+
+@pytest.mark.parametrize("dwells", [[], [np.zeros(100)], [np.array([1.0])]])
+def test_no_noise_is_no_noise(dwells: list[np.ndarray]) -> None:
+    assert fit_noise(dwells, 1.0) == NoiseModel()
+
+
+def test_short_recordings_say_nothing_of_drift() -> None:
+    found = fit_noise([np.random.default_rng(5).normal(0.0, 1.0, 20)], 1.0)
+    assert (found.flicker, found.walk, found.drift_dof) == (0.0, 0.0, math.inf)
+    assert found.white > 0.0
+
+
+def test_neighbouring_means_differ_by_the_allan_variance() -> None:
+    """D_1 = 2σ²(T): flicker (2 ln 2/π)B², random walk K²T/3 (IEEE 952)."""
+    one = np.array([1.0])
+    assert 0.5 * drift_structure(one, 100.0, 1.0, 0.0)[0] == pytest.approx(0.664282**2, rel=1e-5)
+    assert 0.5 * drift_structure(one, 100.0, 0.0, 0.2)[0] == pytest.approx(0.2**2 * 100.0 / 3.0)
+    model = NoiseModel(white=3.0, flicker=1.0, walk=0.2)
+    assert model.allan_deviation(100.0) ** 2 == pytest.approx(
+        9.0 / 100.0 + 0.664282**2 + 0.04 * 100.0 / 3.0, rel=1e-5
+    )
+
+
+def test_drift_of_a_weighted_sum_is_that_of_the_covariance() -> None:
+    """Random walk: covariance of means computed from a finely stepped walk."""
+    count, steps, walk = 4, 400, 0.3
+    lower = np.tril(np.ones((count * steps, count * steps))) * walk / math.sqrt(steps)
+    average = np.kron(np.eye(count), np.full((1, steps), 1.0 / steps))
+    covariance = (average @ lower) @ (average @ lower).T
+    weights = np.array([0.5, -1.0, 1.5, -1.0])
+    found = drift_variance(weights, np.arange(4.0), np.ones(4), NoiseModel(walk=walk))
+    assert found == pytest.approx(float(weights @ covariance @ weights), rel=5e-3)
+
+
+def test_pairs_of_rates_suffer_less_from_drift_than_a_sweep() -> None:
+    sweep = np.array([-300.0, -200, -100, -50, -10, 10, 50, 100, 200, 300])
+    pairs = np.array([10.0, -10, 50, -50, 100, -100, 200, -200, 300, -300])
+    noise = NoiseModel(flicker=1.0)
+    starts, durations = np.arange(10.0) * 20.0, np.full(10, 20.0)
+    spread = float((sweep**2).sum())
+    assert drift_variance(pairs / spread, starts, durations, noise) < 0.5 * drift_variance(
+        sweep / spread, starts, durations, noise
+    )
+
+
+def test_the_resolution_is_the_smallest_step() -> None:
+    assert resolution_step(np.array([0.5, 0.25, 0.5, 1.0])) == 0.25
+    assert resolution_step(np.full(9, 0.5)) == 0.0

@@ -1,1 +1,2 @@
-"""Ground: Earth, rotation, sensors; arrays in, arrays out (numpy, scipy)."""
+"""Mathematics of inertial sensing: the Earth, rotations, sensor models. Arrays in, arrays out; knows numpy
+only."""

@@ -1,0 +1,97 @@
+"""The Allan deviation of long records gives the entered coefficients back (IEEE 952)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from ahrs_lab.inertial.allan import overlapping_allan_deviation
+from ahrs_lab.inertial.sensor_noise import Interpolation, NoiseCoefficients, SlowDrift, WhiteNoise
+
+_SEED = np.random.SeedSequence(20)
+
+
+def _white(coefficients: NoiseCoefficients, rate_hz: float, count: int) -> NDArray[np.float64]:
+    values = np.zeros(count)
+    seed = np.random.SeedSequence(5)
+    WhiteNoise(coefficients, 1.0 / rate_hz, seed).add_to(values, np.empty(count))
+    return values
+
+
+def _error(count: int, m: int) -> float:
+    """Relative standard error of an Allan deviation, IEEE 952."""
+    return float(1.0 / np.sqrt(2.0 * (count / m - 1.0)))
+
+
+@pytest.mark.parametrize("rate_hz", [10.0, 250.0])
+def test_white_noise_is_the_random_walk_coefficient_at_any_sampling_rate(rate_hz: float) -> None:
+    count = 200_000
+    record = _white(NoiseCoefficients(white=0.0035), rate_hz, count)
+    for m in (1, 10, 100):
+        (found,) = overlapping_allan_deviation(record, (m,))
+        assert found == pytest.approx(0.0035 / np.sqrt(m / rate_hz), rel=4 * _error(count, m))
+
+
+@pytest.mark.parametrize("rate_hz", [10.0, 250.0])
+def test_quantisation_falls_with_tau(rate_hz: float) -> None:
+    count = 200_000
+    record = _white(NoiseCoefficients(quantisation=0.02), rate_hz, count)
+    for m in (1, 10, 30):
+        (found,) = overlapping_allan_deviation(record, (m,))
+        assert found == pytest.approx(np.sqrt(3.0) * 0.02 * rate_hz / m, rel=4 * _error(count, m))
+
+
+def test_quantisation_leaves_nothing_behind_in_the_angle() -> None:
+    record = _white(NoiseCoefficients(quantisation=0.02), 10.0, 100_000)
+    half_step = 0.02 * np.sqrt(12.0) / 2.0
+    assert np.max(np.abs(np.cumsum(record) / 10.0)) <= 2.0 * half_step
+
+
+def test_bias_instability_is_a_floor_over_three_decades() -> None:
+    """Forty independent channels, because a flicker record has few degrees of freedom at long averages."""
+    nodes = SlowDrift((NoiseCoefficients(bias_instability=1.0),) * 40, _SEED).nodes(0, 40_000)
+    for m in (10, 30, 100, 300, 1000, 3000):
+        squares = [overlapping_allan_deviation(row, (m,))[0] ** 2 for row in nodes]
+        floor = np.sqrt(np.mean(squares))
+        spread = np.std(squares) / np.sqrt(len(squares)) / (2.0 * floor)
+        assert floor == pytest.approx(0.664282, rel=0.01, abs=4.0 * spread), m
+
+
+def test_rate_random_walk_rises_with_tau() -> None:
+    nodes = SlowDrift((NoiseCoefficients(random_walk=0.5),) * 40, _SEED).nodes(0, 20_000)
+    for m in (10, 100, 1000):
+        squares = [overlapping_allan_deviation(row, (m,))[0] ** 2 for row in nodes]
+        found = np.sqrt(np.mean(squares))
+        spread = np.std(squares) / np.sqrt(len(squares)) / (2.0 * found)
+        assert found == pytest.approx(0.5 * np.sqrt(m / 3.0), rel=0.01, abs=4.0 * spread), m
+
+
+def test_drift_begins_at_zero_and_does_not_depend_on_how_it_is_asked() -> None:
+    coefficients = (NoiseCoefficients(bias_instability=1.0, random_walk=0.1),) * 6
+    whole = SlowDrift(coefficients, np.random.SeedSequence(1)).nodes(0, 9000).copy()
+    other = SlowDrift(coefficients, np.random.SeedSequence(1))
+    assert not whole[:, 0].any()
+    for first, last in ((3, 17), (4000, 4500), (0, 9000)):
+        np.testing.assert_array_equal(other.nodes(first, last), whole[:, first : last + 1])
+
+
+def test_white_noise_does_not_depend_on_how_it_is_asked() -> None:
+    coefficients = NoiseCoefficients(white=1.0, quantisation=0.3)
+    whole = np.zeros(1000)
+    WhiteNoise(coefficients, 0.01, np.random.SeedSequence(4)).add_to(whole, np.empty(1000))
+    source = WhiteNoise(coefficients, 0.01, np.random.SeedSequence(4))
+    parts = []
+    for count in (1, 0, 399, 600):
+        part = np.zeros(count)
+        source.add_to(part, np.empty(count))
+        parts.append(part)
+    np.testing.assert_array_equal(np.concatenate(parts), whole)
+
+
+def test_interpolation_is_numpys() -> None:
+    times = np.sort(np.random.default_rng(1).uniform(3.0, 20.0, 500))
+    between = Interpolation(times)
+    nodes = np.random.default_rng(2).normal(size=between.last - between.first + 1)
+    reference = np.interp(times, np.arange(between.first, between.last + 1), nodes)
+    np.testing.assert_allclose(between(nodes, np.empty(500)), reference, atol=1e-14)

@@ -86,7 +86,8 @@ class Orientation:
             if reference.turned(quarter) == self:
                 return 90.0 * quarter
         raise InputError(
-            "{target} cannot be reached from {reference} by turning the table: the case has to be re-mounted.",
+            "{target} cannot be reached from {reference} by turning the table: "
+            "the case has to be re-mounted.",
             target=self.letters,
             reference=reference.letters,
         )

@@ -1,0 +1,198 @@
+"""Reading a recording back, with all its checks: the header strictly, the segments as far as they go.
+
+A fault of ``recording.toml`` or a file that is not there is an InputError. What is wrong with the samples
+becomes a :class:`~ahrs_lab.recording.finding.Finding` with file and line; the reduction decides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ahrs_lab.errors import InputError, MachineError
+from ahrs_lab.messages import Message
+from ahrs_lab.recording.bundle_source import HEADER_FILE, BundleSource, content_sha256, open_source
+from ahrs_lab.recording.bundle_toml import parse
+from ahrs_lab.recording.clean_rows import CleanRows, clean_rows
+from ahrs_lab.recording.completeness import PROCEDURE, missing_segments
+from ahrs_lab.recording.csv_file import read_csv
+from ahrs_lab.recording.finding import Finding
+from ahrs_lab.recording.finding_list import FindingList
+from ahrs_lab.recording.gravity_check import check_gravity
+from ahrs_lab.recording.minimum_check import check_axis, check_minimum
+from ahrs_lab.recording.parquet_file import read_parquet
+from ahrs_lab.recording.raw_segment import RawSegment, SegmentFileError
+from ahrs_lab.recording.samples import Samples
+from ahrs_lab.recording.segment import DeviceDescription, RecordingHeader, Segment
+from ahrs_lab.recording.table_check import check_table
+
+
+@dataclass(frozen=True)
+class RecordedSegment:
+    """A segment with its samples.
+
+    ``samples`` are the rows that count: times rise strictly, time and rate are finite. ``lines``, shape (n,),
+    is the line of each in the file. ``lost`` counts samples known to be missing or left out.
+    """
+
+    segment: Segment
+    samples: Samples
+    findings: tuple[Finding, ...]
+    lines: NDArray[np.int64]
+    lost: int = 0
+    step_s: float = 0.0
+
+    @property
+    def counts(self) -> bool:
+        """Neither superseded nor interrupted."""
+        return not self.segment.superseded and not self.segment.interrupted
+
+    @property
+    def usable(self) -> bool:
+        """It counts, and nothing in it falls below the standard's minimum."""
+        return self.counts and not any(finding.severity == "unusable" for finding in self.findings)
+
+    @property
+    def seen_s(self) -> float:
+        """How long it was really sampled: gaps do not count."""
+        return len(self.lines) * self.step_s
+
+
+@dataclass(frozen=True)
+class Recording:
+    """All of a bundle. ``general`` are the findings that belong to no file (segments that are missing);
+    ``sha256`` is :func:`~ahrs_lab.recording.bundle_source.content_sha256`."""
+
+    header: RecordingHeader
+    segments: tuple[RecordedSegment, ...]
+    sha256: str
+    general: tuple[Finding, ...] = field(default=())
+    path: Path | None = None
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """All findings: those of the whole recording, then each segment's in its order."""
+        return (*self.general, *(finding for segment in self.segments for finding in segment.findings))
+
+
+def read_bundle(path: Path) -> Recording:
+    """The recording in a folder (or its ``recording.toml``) or an ``.ahrsrec`` archive.
+
+    Raises InputError for what is no recording, MachineError for what the machine does not let us read.
+    """
+    source = open_source(path)
+    try:
+        return _read(source)
+    except OSError as error:
+        raise MachineError(
+            "{path} cannot be read: {error}", path=path, error=error.strerror or error
+        ) from error
+    finally:
+        source.close()
+
+
+def read_header(path: Path) -> tuple[RecordingHeader, tuple[Segment, ...]]:
+    """Header and segments without the samples; the files need not be there."""
+    source = open_source(path)
+    try:
+        return _header(source)
+    except OSError as error:
+        raise MachineError(
+            "{path} cannot be read: {error}", path=path, error=error.strerror or error
+        ) from error
+    finally:
+        source.close()
+
+
+def check_samples(
+    segment: Segment, raw: RawSegment, device: DeviceDescription, procedure: str = PROCEDURE
+) -> RecordedSegment:
+    """All checks of one segment; also for samples that never were in a file (line = row + 2)."""
+    found = FindingList(segment)
+    try:
+        rows = clean_rows(raw, device.sample_rate_hz, found)
+        if not len(rows.lines):
+            raise SegmentFileError(Message("no row of the file counts: record the segment again."), line=2)
+    except SegmentFileError as error:
+        return _unreadable(segment, found, error)
+    _check_rows(segment, rows, device, procedure, found)
+    return RecordedSegment(segment, rows.samples, found.finished(), rows.lines, rows.lost, rows.step_s)
+
+
+def _check_rows(
+    segment: Segment, rows: CleanRows, device: DeviceDescription, procedure: str, found: FindingList
+) -> None:
+    if segment.superseded or segment.interrupted:
+        found.add("set_aside", _set_aside(segment))
+        return
+    if segment.item != "dynamic":
+        check_gravity(segment, rows, device.accel_unit, found)
+    if procedure == PROCEDURE:
+        check_axis(segment, found)
+        check_minimum(segment, rows, found)
+        check_table(segment, rows, device.rate_unit, found)
+
+
+def _read(source: BundleSource) -> Recording:
+    header, segments = _header(source)
+    if not segments:
+        raise InputError("{where} lists no segment: nothing was recorded.", where=source.path / HEADER_FILE)
+    for segment in segments:
+        if not source.has(segment.file):
+            raise InputError(
+                "{where} lists {file}, which is not there: copy it into the recording.",
+                where=source.path / HEADER_FILE,
+                file=segment.file,
+            )
+    general = missing_segments(segments) if header.procedure == PROCEDURE else ()
+    with ThreadPoolExecutor(max_workers=1, thread_name_prefix="recording-hash") as pool:
+        digest = pool.submit(_digest, source.path, [segment.file for segment in segments])
+        recorded = tuple(_read_segment(source, segment, header) for segment in segments)
+        return Recording(header, recorded, digest.result(), general, source.path)
+
+
+def _digest(path: Path, files: list[str]) -> str:
+    """Through its own handle: an archive's is not for two threads."""
+    source = open_source(path)
+    try:
+        return content_sha256(source, files)
+    finally:
+        source.close()
+
+
+def _header(source: BundleSource) -> tuple[RecordingHeader, tuple[Segment, ...]]:
+    if not source.has(HEADER_FILE):
+        raise InputError("{folder} is not a recording: there is no recording.toml in it.", folder=source.path)
+    data = source.load(HEADER_FILE)
+    return parse(data if isinstance(data, bytes) else data.read_bytes(), str(source.path / HEADER_FILE))
+
+
+def _read_segment(source: BundleSource, segment: Segment, header: RecordingHeader) -> RecordedSegment:
+    reader: Callable[[Path | bytes], RawSegment]
+    reader = read_parquet if segment.file.lower().endswith(".parquet") else _read_csv
+    try:
+        raw = reader(source.load(segment.file))
+    except SegmentFileError as error:
+        return _unreadable(segment, FindingList(segment), error)
+    return check_samples(segment, raw, header.device, header.procedure)
+
+
+def _read_csv(source: Path | bytes) -> RawSegment:
+    return read_csv(source if isinstance(source, bytes) else source.read_bytes())
+
+
+def _unreadable(segment: Segment, found: FindingList, error: SegmentFileError) -> RecordedSegment:
+    found.add("file", error.message, error.line, "unusable")
+    return RecordedSegment(segment, Samples(), found.finished(), np.empty(0, dtype=np.int64))
+
+
+def _set_aside(segment: Segment) -> Message:
+    reason = Message(segment.reason) if segment.reason else Message("no reason given")
+    if segment.interrupted:
+        return Message("the recording was interrupted and is not evaluated ({reason}).", reason=reason)
+    return Message("the segment was recorded again and is not evaluated ({reason}).", reason=reason)

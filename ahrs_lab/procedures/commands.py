@@ -23,7 +23,8 @@ class PowerOn:
 
 @dataclass(frozen=True)
 class SettleCurrent:
-    """Wait until the supply current stays within ``tolerance`` (relative) for ``hold_s``, then ``warm_up_s`` more."""
+    """Wait until the supply current stays within ``tolerance`` (relative) for ``hold_s``, then ``warm_up_s``
+    more."""
 
     tolerance: float
     hold_s: float
@@ -92,8 +93,8 @@ class Record:
 
 @dataclass(frozen=True)
 class RecordTurns:
-    """Record ``segment`` while the table turns ``turns`` (signed) whole turns at |rate|, from rest to rest back at
-    its start; recording begins ``lead_s`` before the motion and lasts ``duration_s`` in all."""
+    """Record ``segment`` while the table turns ``turns`` (signed) whole turns at |rate|, from rest to rest
+    back at its start; recording begins ``lead_s`` before the motion and lasts ``duration_s`` in all."""
 
     segment: Segment
     turns: int
@@ -128,8 +129,8 @@ Command = (
 class Step:
     """A line of the operator's list of steps; the commands yielded until the next one belong to it.
 
-    ``key`` is stable over resumes; ``mounting`` is the face (``"x+"``) it is done on; ``kind`` one of mount, power,
-    rest, rates, turns, position; ``estimate_s`` its bench time.
+    ``key`` is stable over resumes; ``mounting`` is the face (``"x+"``) it is done on; ``kind`` one of mount,
+    power, rest, rates, turns, position; ``estimate_s`` its bench time.
     """
 
     key: str

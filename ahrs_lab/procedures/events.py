@@ -16,7 +16,8 @@ RunState = Literal["idle", "running", "pausing", "paused", "waiting", "aborting"
 
 @dataclass(frozen=True)
 class StateChanged:
-    """The run's state, from the one transition table of the runner. ``reason`` where it failed or was aborted."""
+    """The run's state, from the one transition table of the runner. ``reason`` where it failed or was
+    aborted."""
 
     state: RunState
     reason: Message | None = None

@@ -99,6 +99,9 @@ class SimulatedAhrs:
             if not self._pending:
                 return Samples()
             waiting = concatenate(self._pending)
+            if not len(waiting):  # every row of it was lost
+                self._pending = []
+                return Samples()
             arrived = int(
                 np.searchsorted(waiting["host_t_s"], self._clock.now_s() + self._on_time_s, "right")
             )

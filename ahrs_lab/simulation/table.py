@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -129,7 +128,7 @@ class SimulatedTable:
             self._logged = last
             times = np.arange(first, last + 1) / rate
             angles, rates = np.empty_like(times), np.zeros_like(times)
-            for start, stop, piece in self.motion.spans(first / rate, inf):
+            for start, stop, piece in self.motion.spans(first / rate, (last + 1) / rate):
                 a, b = np.searchsorted(times, (start, stop))
                 angles[a:b] = piece.angles(times[a:b])
                 if not piece.at_rest:

@@ -1,0 +1,38 @@
+"""What belongs together but was recorded over several power-ons, as a resumed run may leave it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ahrs_lab.messages import Message
+from ahrs_lab.recording.segment import Segment
+
+_TOGETHER = {
+    "scale_factor": Message("scale factor"),
+    "misalignment": Message("misalignment"),
+}
+
+
+def split_over_power_cycles(segments: Sequence[Segment]) -> tuple[Message, ...]:
+    """A sentence per item and axis whose segments come from more than one power-on: each power-on brings its
+    own bias, which 7.1 and 7.3 take as constant. Repeats have power-ons of their own and are compared among
+    themselves."""
+    cycles: dict[tuple[str, str, int], set[int]] = {}
+    for segment in segments:
+        number = segment.extra.get("power_cycle")
+        if segment.item in _TOGETHER and isinstance(number, int):
+            if segment.superseded or segment.interrupted:
+                continue
+            key = (segment.item, segment.axis, int(segment.extra.get("repeat", 1)))
+            cycles.setdefault(key, set()).add(number)
+    return tuple(
+        Message(
+            "{item} of {axis} was recorded over {count} power-ons; the device's bias may differ between "
+            "them.",
+            item=_TOGETHER[item],
+            axis=axis.upper(),
+            count=len(numbers),
+        )
+        for (item, axis, _), numbers in cycles.items()
+        if len(numbers) > 1
+    )

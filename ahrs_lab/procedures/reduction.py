@@ -1,0 +1,191 @@
+"""From a recording to the result: the one function that live runs and ``evaluate`` both call."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+import ahrs_lab
+from ahrs_lab.errors import InputError
+from ahrs_lab.messages import Message
+from ahrs_lab.metrology.conditions import BenchCapability
+from ahrs_lab.metrology.json_reader import message_from_json
+from ahrs_lab.metrology.result import (
+    CalibrationResult,
+    Environment,
+    Method,
+    ResultWarning,
+    ScaleFactorResult,
+)
+from ahrs_lab.procedures.reduction_evidence import Evidence, RateSource
+from ahrs_lab.procedures.reduction_misalignment import reduce_misalignments
+from ahrs_lab.procedures.reduction_scale_factor import reduce_scale_factor
+from ahrs_lab.procedures.reduction_selection import select
+from ahrs_lab.procedures.reduction_zero_offset import reduce_zero_offsets
+from ahrs_lab.recording.orientation import AXES, Axis
+from ahrs_lab.recording.read import Recording
+from ahrs_lab.recording.segment import RecordingHeader
+
+
+def reduce_recording(
+    recording: Recording,
+    *,
+    rates: RateSource = "demanded",
+    uncertainty: Method = "gum",
+    capability: BenchCapability | None = None,
+    software: str | None = None,
+) -> CalibrationResult:
+    """K, B and L with their uncertainties, of whatever the recording holds (JJF 1536 7.1 to 7.3).
+
+    ``rates``: Ω as demanded, or as the table measured it (angle turned over time). ``capability``: the
+    bench's figures for the type B terms, by default the assumptions of :class:`BenchCapability`. The last
+    take of a segment counts. Raises InputError, with file and line, where a recorded segment does not reach
+    the standard's minimum or nothing can be evaluated; a quantity that lacks segments is left out and named
+    in the warnings.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        result = _reduce(recording, rates, uncertainty, capability or BenchCapability(), software)
+    _check_finite(result)
+    return result
+
+
+def _reduce(
+    recording: Recording,
+    rates: RateSource,
+    method: Method,
+    capability: BenchCapability,
+    software: str | None,
+) -> CalibrationResult:
+    selection = select(recording)
+    header = recording.header
+    combined = _schedule(header.notes) == "combined"
+    evidence = Evidence(
+        selection=selection,
+        device=header.device,
+        site=header.site,
+        rate_source=rates,
+        method=method,
+        capability=capability,
+    )
+    warnings: list[ResultWarning] = list(selection.warnings)
+    scale_factors: dict[Axis, ScaleFactorResult] = {}
+    for axis in AXES:
+        scale_factor, said = reduce_scale_factor(evidence, axis)
+        warnings += said
+        if scale_factor is not None:
+            scale_factors[axis] = scale_factor
+    zero_offsets, said = reduce_zero_offsets(evidence, scale_factors, combined=combined)
+    warnings += said
+    misalignments, said = reduce_misalignments(evidence, scale_factors)
+    warnings += said
+    if not scale_factors and not zero_offsets and not misalignments:
+        raise _nothing(warnings)
+    return CalibrationResult(
+        procedure=header.procedure,
+        bundle_sha256=recording.sha256,
+        software=software or f"ahrs-lab {ahrs_lab.__version__}",
+        scale_factor=scale_factors,
+        zero_offset=zero_offsets,
+        misalignment=misalignments,
+        warnings=tuple(warnings),
+        deviations=_deviations(header.notes),
+        environment=_environment(header.notes),
+        device=_device(header),
+        site=_site(header),
+        notes=dict(header.notes),
+        simulated=header.notes.get("simulated") is True,
+    )
+
+
+def _check_finite(result: CalibrationResult) -> None:
+    """Cells may hold numbers so large that their sums are none."""
+    values = [
+        *((f"K_{axis}", found.K, found.uncertainty) for axis, found in result.scale_factor.items()),
+        *((f"B_{axis}", found.B, found.uncertainty) for axis, found in result.zero_offset.items()),
+        *((f"L_{key}", found.L, found.uncertainty) for key, found in result.misalignment.items()),
+    ]
+    for symbol, value, stated in values:
+        if not math.isfinite(value) or not math.isfinite(stated.expanded):
+            raise InputError(
+                "{symbol} is not a finite number: some values in its segments are too large. Check the "
+                "columns gyro_x, gyro_y, gyro_z.",
+                symbol=symbol,
+            )
+
+
+def _nothing(warnings: list[ResultWarning]) -> InputError:
+    reasons = [
+        Message("{file}, line {line}: {what}", file=warning.segment, line=warning.line, what=warning.what)
+        if warning.segment
+        else warning.what
+        for warning in warnings
+    ]
+    if not reasons:
+        return InputError(
+            "The recording holds no segment that is evaluated by JJF 1536: check item, axis and role."
+        )
+    return InputError(
+        "Nothing in the recording can be evaluated ({count} findings). {reason}",
+        count=len(reasons),
+        reason=reasons[0],
+    )
+
+
+def _schedule(notes: Mapping[str, Any]) -> str:
+    plan = notes.get("plan")
+    zero_offset = plan.get("zero_offset") if isinstance(plan, Mapping) else None
+    schedule = zero_offset.get("schedule") if isinstance(zero_offset, Mapping) else None
+    return schedule if isinstance(schedule, str) else "standard"
+
+
+def _deviations(notes: Mapping[str, Any]) -> tuple[Message, ...]:
+    listed = notes.get("deviations", [])
+    if not isinstance(listed, list):
+        raise InputError(
+            "recording.toml: [notes] deviations has to be a list of sentences: correct or remove it."
+        )
+    return tuple(message_from_json(entry, f"deviations[{index}]") for index, entry in enumerate(listed))
+
+
+def _environment(notes: Mapping[str, Any]) -> Environment | None:
+    table = notes.get("environment")
+    if table is None:
+        return None
+    keys = ("temperature_c", "temperature_spread_c", "humidity_percent", "humidity_spread_percent")
+    values = [table.get(key) if isinstance(table, Mapping) else None for key in keys]
+    numbers = [
+        float(value)
+        for value in values
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    ]
+    if len(numbers) < len(keys):
+        raise InputError(
+            "recording.toml: [notes] environment has to hold the numbers {keys}: correct or remove it.",
+            keys=", ".join(keys),
+        )
+    return Environment(*numbers)
+
+
+def _device(header: RecordingHeader) -> dict[str, Any]:
+    device = header.device
+    return {
+        "name": device.name,
+        "manufacturer": device.manufacturer,
+        "model": device.model,
+        "serial_number": device.serial_number,
+        "rate_unit": device.rate_unit,
+        "accel_unit": device.accel_unit,
+        "sample_rate_hz": device.sample_rate_hz,
+    }
+
+
+def _site(header: RecordingHeader) -> dict[str, Any]:
+    site = header.site
+    return {
+        "latitude_deg": site.latitude_deg,
+        "longitude_deg": site.longitude_deg,
+        "altitude_m": site.altitude_m,
+    }

@@ -1,0 +1,113 @@
+"""Which segments of a recording are evaluated, and what the reader of the result is told about the others.
+
+A segment that does not reach the standard's minimum itself (20 s, 10 samples/s, whole turns, lost samples)
+stops the evaluation: it was recorded to count and cannot. A segment that is missing, wrongly mounted or at a
+rate that the table did not hold takes with it only the quantities that cannot stand without it; the others
+are evaluated, and the warnings name what is left out. Where nothing stands, the evaluation stops.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ahrs_lab.errors import InputError
+from ahrs_lab.messages import Message
+from ahrs_lab.metrology.result import ResultWarning
+from ahrs_lab.procedures.reduction_output import DeviceOutput, device_output
+from ahrs_lab.recording.finding import Finding
+from ahrs_lab.recording.orientation import Axis
+from ahrs_lab.recording.read import RecordedSegment, Recording
+from ahrs_lab.recording.samples import Samples
+from ahrs_lab.recording.segment import Segment
+
+PROCEDURE = "jjf1536-2015"
+
+_STOPPING = frozenset({"dwell", "sample_rate", "turns", "gap", "bad_cell", "time"})
+"""Kinds of finding that, unusable, mean the standard's minimum is not reached."""
+
+
+@dataclass(frozen=True)
+class Take:
+    """A segment that is evaluated: ``start_s`` on one time scale for the whole recording."""
+
+    segment: Segment
+    samples: Samples
+    output: DeviceOutput
+    start_s: float
+
+    @property
+    def at_rest(self) -> bool:
+        return self.segment.role in ("static_before", "static_after", "position") or (
+            self.segment.item == "static"
+        )
+
+
+@dataclass(frozen=True)
+class Selection:
+    """``lacking`` are the (item, axis) that lack a segment as a whole."""
+
+    takes: tuple[Take, ...]
+    warnings: tuple[ResultWarning, ...]
+    lacking: frozenset[tuple[str, str]]
+
+    def of(self, item: str, axis: Axis) -> tuple[Take, ...]:
+        return tuple(take for take in self.takes if take.segment.item == item and take.segment.axis == axis)
+
+
+def select(recording: Recording) -> Selection:
+    """The takes that count; raises InputError with file and line where the standard's minimum is not
+    reached."""
+    if recording.header.procedure != PROCEDURE:
+        raise InputError(
+            "The recording's procedure is “{procedure}”: only “{expected}” is evaluated here.",
+            procedure=recording.header.procedure,
+            expected=PROCEDURE,
+        )
+    warnings = [_warning(finding) for finding in recording.findings]
+    lacking = {
+        (finding.item, finding.axis)
+        for finding in recording.findings
+        if finding.severity == "unusable" and not finding.segment
+    }
+    takes: list[Take] = []
+    end_s = 0.0
+    for recorded in recording.segments:
+        if recorded.segment.superseded or recorded.segment.interrupted:
+            continue
+        if not _usable(recorded):
+            continue
+        output = device_output(recorded.samples, recording.header.device)
+        first_s = float(recorded.samples["t_s"][0]) - output.step_s
+        # the device's clock where it runs on; else one segment after the other
+        start_s = max(first_s, end_s) if first_s > 0.5 * output.step_s else end_s
+        end_s = start_s + output.duration_s
+        takes.append(Take(recorded.segment, recorded.samples, output, start_s))
+    return Selection(tuple(takes), tuple(warnings), frozenset(lacking))
+
+
+def _usable(recorded: RecordedSegment) -> bool:
+    unusable = [finding for finding in recorded.findings if finding.severity == "unusable"]
+    for finding in unusable:
+        if finding.kind in _STOPPING:
+            raise InputError(
+                "{where} The standard's minimum is not reached: record the segment again, or take it out of "
+                "recording.toml.",
+                where=finding.placed,
+            )
+    return not unusable and len(recorded.samples) >= 2
+
+
+def _warning(finding: Finding) -> ResultWarning:
+    return ResultWarning(finding.what, finding.segment, finding.line)
+
+
+def left_out(item: Message, axis: str, reason: Message) -> ResultWarning:
+    """The warning that a quantity is not in the result."""
+    return ResultWarning(
+        Message("{item} {axis} is not evaluated: {reason}", item=item, axis=axis, reason=reason)
+    )
+
+
+def names(takes: Iterable[Take]) -> tuple[str, ...]:
+    return tuple(take.segment.name for take in takes)

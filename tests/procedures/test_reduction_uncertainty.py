@@ -1,0 +1,135 @@
+"""The uncertainty that the reduction states is the scatter that repetition shows (references.md, statistical
+limits)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from scipy.stats import binom, chi2
+
+from ahrs_lab.metrology.conditions import BenchCapability
+from ahrs_lab.metrology.result import Uncertainty
+from ahrs_lab.procedures.reduction import reduce_recording
+from tests.procedures.virtual_unit import RATES, VirtualUnit
+
+DENSITY = 2.5e-3
+"""0.15 °/√h in °/√s."""
+RUNS = 300
+
+PERFECT_BENCH = BenchCapability(
+    rate_relative=(0.0, 0.0, 0.0),
+    **{  # type: ignore[arg-type]
+        entry.name: 0.0
+        for entry in fields(BenchCapability)
+        if entry.name not in ("rate_relative", "certified", "acquisition_bits")
+    },
+)
+
+
+@pytest.fixture(scope="module")
+def ensemble() -> dict[str, list[tuple[float, Uncertainty]]]:
+    """Error and stated uncertainty of K_x, F0_x, B_x, L_yx over many runs of one unit on a perfect bench."""
+    unit = VirtualUnit(
+        K=(1.001, 1, 1), B=(1e-3, 0, 0), L={"yx": 1e-3}, density=DENSITY, rng=np.random.default_rng(2015)
+    )
+    found: dict[str, list[tuple[float, Uncertainty]]] = {"K": [], "F0": [], "B": [], "L": []}
+    for _ in range(RUNS):
+        recording = unit.recording([*unit.rates("x"), *unit.turns("x"), *unit.positions("x", 60.0)])
+        result = reduce_recording(recording, capability=PERFECT_BENCH)
+        K, B, L = result.scale_factor["x"], result.zero_offset["x"], result.misalignment["yx"]
+        assert K.F0_uncertainty is not None
+        found["K"].append((K.K - 1.001, K.uncertainty))
+        found["F0"].append((K.F0, K.F0_uncertainty))
+        found["B"].append((B.B - 1e-3, B.uncertainty))
+        found["L"].append((L.L - 1e-3, L.uncertainty))
+    return found
+
+
+SPREAD = sum(rate**2 for rate in RATES)
+LIMITS = {
+    "K": DENSITY / math.sqrt(36.0 * SPREAD),
+    "F0": DENSITY * math.sqrt(1.0 / (36.0 * len(RATES)) + 1.0 / (2.0 * 20.0)),
+    "B": DENSITY / (2.0 * math.sqrt(60.0)),
+    # 38 s are recorded for 36 s of motion
+    "L": DENSITY / math.sqrt(720.0 * 10 * 100.0) * math.sqrt(38.0 / 36.0),
+}
+"""Least squares cannot do better; T = 36 s at each rate, 20 s at rest, 60 s a position, 10 turns at 100
+°/s."""
+
+
+@pytest.mark.parametrize("quantity", LIMITS)
+def test_the_scatter_reaches_the_statistical_limit(
+    quantity: str, ensemble: dict[str, list[tuple[float, Uncertainty]]]
+) -> None:
+    errors = np.array([error for error, _ in ensemble[quantity]])
+    low, high = np.sqrt(chi2.ppf([0.0005, 0.9995], RUNS) / RUNS)
+    assert low < math.sqrt(float(np.mean(errors**2))) / LIMITS[quantity] < high
+
+
+@pytest.mark.parametrize("quantity", LIMITS)
+def test_the_stated_uncertainty_is_the_limit_on_average(
+    quantity: str, ensemble: dict[str, list[tuple[float, Uncertainty]]]
+) -> None:
+    noise = [
+        math.sqrt(sum(row.contribution**2 for row in stated.rows if row.symbol[0] in "FN"))
+        for _, stated in ensemble[quantity]
+    ]
+    assert float(np.mean(np.square(noise))) == pytest.approx(LIMITS[quantity] ** 2, rel=0.05)
+
+
+@pytest.mark.parametrize("quantity", LIMITS)
+def test_the_expanded_uncertainty_covers_95_percent(
+    quantity: str, ensemble: dict[str, list[tuple[float, Uncertainty]]]
+) -> None:
+    covered = sum(abs(error) <= stated.expanded for error, stated in ensemble[quantity])
+    # at least 95 %, and no more than the terms that are estimated beside the noise may add
+    assert binom.ppf(0.0005, RUNS, 0.95) <= covered <= binom.ppf(0.9995, RUNS, 0.99)
+
+
+def test_a_drifting_bias_enters_K_by_what_the_drift_is() -> None:
+    """Random walk of the rate: K scatters beyond the white noise, and the budget says so."""
+    walk, errors, stated = 2e-3, [], []
+    rng = np.random.default_rng(7)
+    unit = VirtualUnit(density=DENSITY, rng=rng, earth_dps=0.0)
+    for _ in range(120):
+        segments = [*unit.rates("x"), *unit.positions("x", 300.0)]
+        level = 0.0
+        drifting = []
+        for recorded in segments:
+            steps = rng.normal(0.0, walk * math.sqrt(0.1), len(recorded.samples))
+            path = level + np.cumsum(steps)
+            level = float(path[-1])
+            columns = recorded.samples.with_columns({"gyro_x": recorded.samples["gyro_x"] + path})
+            drifting.append(type(recorded)(recorded.segment, columns, (), recorded.lines, 0, 0.1))
+        result = reduce_recording(unit.recording(drifting), capability=PERFECT_BENCH).scale_factor["x"]
+        errors.append(result.K - 1.0)
+        stated.append(next(row.contribution for row in result.uncertainty.rows if row.symbol == "D"))
+    white = LIMITS["K"] ** 2
+    drift = float(np.mean(np.square(errors))) - white
+    assert drift > 20.0 * white
+    low, high = (float(120 / chi2.ppf(p, 120)) for p in (0.9995, 0.0005))
+    assert low < float(np.mean(np.square(stated))) / drift < high
+
+
+def test_annex_a_adds_the_positions_linearly() -> None:
+    unit = VirtualUnit(density=DENSITY)
+    recording = unit.recording([*unit.rates("x"), *unit.turns("x"), *unit.positions("x", 60.0)])
+    gum = reduce_recording(recording, capability=PERFECT_BENCH)
+    annex = reduce_recording(recording, uncertainty="annex-a", capability=PERFECT_BENCH)
+    rows = [row.contribution for row in gum.zero_offset["x"].uncertainty.rows if row.symbol.startswith("N_")]
+    assert annex.zero_offset["x"].uncertainty.rows[-1].contribution == pytest.approx(sum(rows))
+    assert annex.zero_offset["x"].uncertainty.coverage_factor == 2.0
+    assert annex.scale_factor["x"].K == gum.scale_factor["x"].K
+
+
+def test_figures_of_a_certificate_are_told_from_assumptions() -> None:
+    unit = VirtualUnit(density=DENSITY)
+    capability = BenchCapability(certified=("rate_relative",))
+    result = reduce_recording(unit.recording(unit.rates("x")), capability=capability).scale_factor["x"]
+    origins = {row.symbol: row.origin for row in result.uncertainty.rows}
+    assert origins["Ω"] == "certificate"
+    assert origins["ε"] == "assumption"
+    assert origins["F̄"] == "data"

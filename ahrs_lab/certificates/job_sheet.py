@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from datetime import date
+from pathlib import Path
 from typing import Literal
 
 from ahrs_lab.metrology.conditions import BenchCapability, Standard
@@ -69,4 +70,19 @@ class JobSheet:
     rounding: Literal["half-even", "up"] = "half-even"
     uncertainty_method: Literal["gum", "annex-a"] = "gum"
     notes: tuple[str, ...] = ()
+    accepted_violations: tuple[str, ...] = ()
+    """Violations of clause 6 with the reason and the second person who accepted them; printed."""
     demonstration: bool = False
+    seal: Path | None = None
+    """Image (PNG) of the laboratory's calibration seal (clause 8 d); in JOB.toml relative to the file."""
+
+
+def load_job_sheet(path: Path) -> JobSheet:
+    """Read a ``JOB.toml``.
+
+    Raises:
+        InputError: what is wrong, at which key, and what to write instead.
+    """
+    from ahrs_lab.certificates.job_sheet_file import read_job_sheet
+
+    return read_job_sheet(path)

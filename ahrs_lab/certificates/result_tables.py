@@ -1,0 +1,280 @@
+"""Annex C: the result sheet, each value rounded to its uncertainty, in annex C's words and order."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from ahrs_lab.certificates import wording
+from ahrs_lab.certificates.documents import EMPTY, Column, Label, Table, Words, label, same
+from ahrs_lab.certificates.job_sheet import CertificateLanguage
+from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol
+from ahrs_lab.metrology.result import (
+    MISALIGNMENT_KEYS,
+    AxisName,
+    CalibrationResult,
+    MisalignmentResult,
+    ScaleFactorResult,
+    Uncertainty,
+    ZeroOffsetResult,
+)
+from ahrs_lab.metrology.rounding import format_grouped, round_to_place, round_to_uncertainty
+
+AXES: tuple[AxisName, ...] = ("x", "y", "z")
+PER_HOUR = 3600.0
+ARCMIN = 180.0 * 60.0 / math.pi
+DEGREE = 180.0 / math.pi
+DASH = "—"
+
+_UNITS = {
+    "deg/s": "°/s",
+    "(deg/s)/(deg/s)": "(°/s)/(°/s)",
+    "(rad/s)/(deg/s)": "(rad/s)/(°/s)",
+    "LSB/(deg/s)": "LSB/(°/s)",
+}
+
+
+def unit_text(unit: str) -> RichText:
+    """A unit of the results as it is printed."""
+    return plain(_UNITS.get(unit, unit.replace("deg", "°")))
+
+
+def significant(value: float, digits: int = 2) -> str:
+    """``value`` with that many significant digits, written out, grouped; for figures that have no
+    uncertainty."""
+    if value == 0 or not math.isfinite(value):
+        return "0" if value == 0 else "∞" if value > 0 else DASH
+    decimals = digits - 1 - math.floor(math.log10(abs(value)))
+    return format_grouped(f"{round(value, decimals):.{max(decimals, 0)}f}")
+
+
+def contribution(value: float, combined: float) -> str:
+    """A contribution to one digit more than the combined uncertainty's two; what vanishes there as ``<
+    0.001``."""
+    if not (math.isfinite(value) and combined > 0 and math.isfinite(combined)):
+        return significant(value)
+    decimals = 2 - math.floor(math.log10(combined))
+    text = round_to_place(value, decimals)
+    if float(text) == 0 and value > 0:
+        return f"< {format_grouped(round_to_place(10.0**-decimals, decimals))}"
+    return format_grouped(text)
+
+
+@dataclass(frozen=True)
+class ResultWriter:
+    """How results are written: the languages and the rounding of the job."""
+
+    language: CertificateLanguage
+    rounding: Literal["half-even", "up"]
+
+    def words(self, words: Words) -> Label:
+        """Our own wording."""
+        return label(words, self.language)
+
+    def pair(self, value: float, uncertainty: Uncertainty, factor: float = 1.0) -> tuple[Label, Label]:
+        """Value and U, both times ``factor``, rounded to the same place and grouped."""
+        rounded = round_to_uncertainty(value * factor, uncertainty.expanded * factor, self.rounding)
+        return same(format_grouped(rounded.value)), same(format_grouped(rounded.expanded))
+
+    def quantity(self, words: Words, letter: str, index: str) -> Label:
+        """Annex C's words with the symbol."""
+        name = self.words(words)
+        return Label(joined(name.main, "  ", symbol(letter, index)), name.second)
+
+    def missing(self, name: Label, columns: int) -> tuple[Label, ...]:
+        """The row of a quantity that was not calibrated."""
+        return (name, self.words(wording.NOT_CALIBRATED), *[same(DASH)] * (columns - 2))
+
+    def column(self, words: Words, unit: RichText | str = (), *, strong: bool = False) -> Column:
+        """A column of numbers."""
+        return Column(self.words(words), plain(unit) if isinstance(unit, str) else unit, "right", strong)
+
+    def marked(self, words: Words, mark: str) -> Column:
+        """The quantities' column, with footnote marks."""
+        name = self.words(words)
+        return Column(Label(joined(name.main, (Run(mark, "sup"),)), name.second))
+
+
+def _k(uncertainty: Uncertainty) -> Label:
+    return same(f"{uncertainty.coverage_factor:.2f}")
+
+
+def rate_range(result: ScaleFactorResult) -> str:
+    """The span of the rates, ``±300 °/s`` or ``−100 … 300 °/s``."""
+    low, high = min(result.demanded_rates_dps), max(result.demanded_rates_dps)
+    if math.isclose(-low, high, rel_tol=1e-6):
+        return f"±{format_grouped(f'{high:g}')} °/s"
+    return f"{format_grouped(f'{low:g}')} … {format_grouped(f'{high:g}')} °/s"
+
+
+def scale_factor_table(results: Mapping[AxisName, ScaleFactorResult], writer: ResultWriter) -> Table:
+    """C.1, 1: K_x, K_y, K_z."""
+    units = {result.unit for result in results.values()}
+    unit = unit_text(units.pop()) if len(units) == 1 else ()
+    columns = (
+        Column(writer.words(wording.QUANTITY)),
+        writer.column(wording.VALUE, unit, strong=True),
+        writer.column(wording.EXPANDED, unit),
+        writer.column(wording.COVERAGE),
+        writer.column(wording.RANGE),
+    )
+    rows = []
+    for axis in AXES:
+        name = writer.quantity(wording.SCALE_FACTOR_NAMES[axis], "K", axis)
+        result = results.get(axis)
+        if result is None:
+            rows.append(writer.missing(name, len(columns)))
+            continue
+        value, expanded = writer.pair(result.K, result.uncertainty)
+        if not unit:
+            value = Label(joined(value.main, " ", unit_text(result.unit)))
+        rows.append((name, value, expanded, _k(result.uncertainty), same(rate_range(result))))
+    return Table(columns, tuple(rows))
+
+
+def zero_offset_table(results: Mapping[AxisName, ZeroOffsetResult], writer: ResultWriter) -> Table:
+    """C.1, 2: heading, pitch, roll zero offset, °/s and °/h; where known, the repeatability beside them."""
+    repeatable = any(result.repeatability_dps is not None for result in results.values())
+    columns = [
+        writer.marked(wording.QUANTITY, "2"),
+        writer.column(wording.VALUE, "°/s", strong=True),
+        writer.column(wording.EXPANDED_SHORT, "°/s"),
+        writer.column(wording.VALUE, "°/h", strong=True),
+        writer.column(wording.EXPANDED_SHORT, "°/h"),
+        writer.column(wording.COVERAGE),
+    ]
+    if repeatable:
+        columns.append(writer.column(wording.REPEATABILITY, "°/h"))
+    rows = []
+    for axis in AXES:
+        name = writer.quantity(wording.ZERO_OFFSET_NAMES[axis], "B", axis)
+        result = results.get(axis)
+        if result is None:
+            rows.append(writer.missing(name, len(columns)))
+            continue
+        row = [
+            name,
+            *writer.pair(result.B, result.uncertainty),
+            *writer.pair(result.B, result.uncertainty, PER_HOUR),
+            _k(result.uncertainty),
+        ]
+        if repeatable:
+            known = result.repeatability_dps
+            row.append(same(DASH if known is None else significant(known * PER_HOUR)))
+        rows.append(tuple(row))
+    return Table(tuple(columns), tuple(rows))
+
+
+def misalignment_table(results: Mapping[str, MisalignmentResult], writer: ResultWriter) -> Table:
+    """C.1, 3: six misalignments as ratio (rad), ′ and °."""
+    columns = (
+        writer.marked(wording.QUANTITY, "1, 2, 3"),
+        writer.column(wording.VALUE, "rad", strong=True),
+        writer.column(wording.EXPANDED_SHORT, "rad"),
+        writer.column(wording.VALUE, "′", strong=True),
+        writer.column(wording.EXPANDED_SHORT, "′"),
+        writer.column(wording.VALUE, "°"),
+        writer.column(wording.COVERAGE),
+    )
+    rows = []
+    for key in MISALIGNMENT_KEYS:
+        name = writer.quantity(wording.MISALIGNMENT_NAMES[key], "L", key)
+        result = results.get(key)
+        if result is None:
+            rows.append(writer.missing(name, len(columns)))
+            continue
+        rows.append(
+            (
+                name,
+                *writer.pair(result.L, result.uncertainty),
+                *writer.pair(result.L, result.uncertainty, ARCMIN),
+                writer.pair(result.L, result.uncertainty, DEGREE)[0],
+                _k(result.uncertainty),
+            )
+        )
+    return Table(columns, tuple(rows))
+
+
+def linearity_table(results: Mapping[AxisName, ScaleFactorResult], writer: ResultWriter) -> Table:
+    """Usual for gyros and beyond the standard: nonlinearity, asymmetry, fitted zero."""
+    columns = (
+        Column(writer.words(wording.AXIS)),
+        Column(writer.words(wording.NONLINEARITY), joined("10", (Run("−6", "sup"),)), "right"),
+        Column(writer.words(wording.ASYMMETRY), joined("10", (Run("−6", "sup"),)), "right"),
+        writer.column(wording.FITTED_ZERO),
+    )
+    rows = []
+    for axis, result in results.items():
+        unit = unit_text(result.unit.split("/(deg/s)")[0].strip("()") if result.unit != "1" else "°/s")
+        rows.append(
+            (
+                same(axis.upper()),
+                same(format_grouped(f"{result.nonlinearity_ppm:.1f}")),
+                same(format_grouped(f"{result.asymmetry_ppm:.1f}")),
+                Label(joined(significant(result.F0), " ", unit)),
+            )
+        )
+    return Table(columns, tuple(rows))
+
+
+def budget_table(
+    names: Mapping[str, RichText],
+    uncertainties: Mapping[str, Uncertainty],
+    factor: Mapping[str, float],
+    writer: ResultWriter,
+) -> Table:
+    """Contributions of every source to the quantities of one kind, one column each.
+
+    ``factor`` scales a quantity's contribution to the printed unit.
+    """
+    sources: dict[tuple[str, str], tuple[Label, str, bool]] = {}
+    for uncertainty in uncertainties.values():
+        for row in uncertainty.rows:
+            name = label(
+                Words(row.source.text("zh"), row.source.text("en")), "en" if writer.language == "en" else "zh"
+            )
+            sources.setdefault(
+                (row.symbol, row.source.template), (name, row.kind, row.origin == "assumption")
+            )
+    columns = (
+        Column(writer.words(wording.SOURCE)),
+        Column(writer.words(wording.KIND)),
+        *(Column(Label(names[key]), (), "right") for key in uncertainties),
+    )
+    rows = []
+    for (identity, template), (name, kind, assumed) in sources.items():
+        cells = []
+        for key, uncertainty in uncertainties.items():
+            parts = [
+                r.contribution
+                for r in uncertainty.rows
+                if (r.symbol, r.source.template) == (identity, template)
+            ]
+            total = uncertainty.standard * factor[key]
+            cells.append(same(contribution(math.hypot(*parts) * factor[key], total) if parts else DASH))
+        rows.append((Label(joined(name.main, " *" if assumed else "")), same(kind), *cells))
+    rows.append(
+        (
+            writer.words(wording.COMBINED),
+            EMPTY,
+            *(same(significant(u.standard * factor[key])) for key, u in uncertainties.items()),
+        )
+    )
+    rows.append((writer.words(wording.COVERAGE_FACTOR), EMPTY, *(_k(u) for u in uncertainties.values())))
+    rows.append(
+        (
+            writer.words(wording.EXPANDED_UNCERTAINTY),
+            EMPTY,
+            *(writer.pair(0.0, u, factor[key])[1] for key, u in uncertainties.items()),
+        )
+    )
+    return Table(columns, tuple(rows), size=7.5, summary_rows=3)
+
+
+def methods_of(result: CalibrationResult) -> set[str]:
+    """The methods by which the uncertainties of ``result`` were evaluated."""
+    methods: set[str] = {one.uncertainty.method for one in result.scale_factor.values()}
+    methods |= {one.uncertainty.method for one in result.zero_offset.values()}
+    return methods | {one.uncertainty.method for one in result.misalignment.values()}

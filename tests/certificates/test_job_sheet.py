@@ -1,0 +1,131 @@
+"""JOB.toml: what is right is read whole, what is wrong is refused with its place."""
+
+from __future__ import annotations
+
+from datetime import date
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ahrs_lab.certificates.job_sheet import JobSheet, load_job_sheet
+from ahrs_lab.errors import InputError
+from ahrs_lab.resource_files import resource_path
+
+DEMO = resource_path("jobs/demo.toml")
+
+
+def read(tmp_path: Path, text: str) -> JobSheet:
+    path = tmp_path / "JOB.toml"
+    path.write_text(text, encoding="utf-8")
+    return load_job_sheet(path)
+
+
+def changed(old: str, new: str) -> str:
+    text = DEMO.read_text(encoding="utf-8")
+    assert old in text
+    return text.replace(old, new, 1)
+
+
+def test_the_demonstration_sheet_is_read_whole() -> None:
+    job = load_job_sheet(DEMO)
+    assert job.certificate_number == "AL-2026-0142"
+    assert job.calibrated == date(2026, 11, 22)
+    assert job.issued is None
+    assert [standard.kind for standard in job.standards] == ["table", "supply", "fixture", "room"]
+    assert job.standards[0].due == date(2027, 9, 1)
+    assert job.capability.rate_relative == (2e-2, 2e-3, 2e-4)
+    assert "position_arcsec" in job.capability.certified
+    assert job.approver.position_en == "Authorised signatory"
+    assert job.recalibration_months == 24
+    assert job.demonstration
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ('number = "2026-0142"', "", "“number” is missing"),
+        ('number = "2026-0142"', "number = 142", "“number” must be a text in quotation marks"),
+        ('number = "2026-0142"', 'number = "  "', "“number” must be a text that is not empty"),
+        ('number = "2026-0142"', r'number = "a\u0007b"', "“number” must be one line of printable"),
+        ("received = 2026-11-20", 'received = "2026-11-20"', "“received” must be a date without"),
+        ("received = 2026-11-20", "received = 2026-11-20T08:00:00", "“received” must be a date without"),
+        ("received = 2026-11-20", "received = 2026-11-25", "“calibrated” (2026-11-22) is before"),
+        ('rounding = "half-even"', 'rounding = "down"', "“rounding” must be one of half-even, up"),
+        ("demonstration = true", "demonstration = 1", "“demonstration” must be true or false"),
+        ("recalibration_months = 24", "recalibration_months = 0", "a whole number from 1 to 120"),
+        ("recalibration_months = 24", "recalibration_months = true", "a whole number from 1 to 120"),
+        ("[customer]", "[custumer]", "“customer” is missing"),
+        ('name_en = "Strapdown AHRS"', 'nam_en = "AHRS"', "“device.nam_en” is not known here"),
+        ('kind = "supply"', 'kind = "power"', "“standard[2].kind” must be one of table, supply"),
+        ('serial_number = "P-0113"', "", "“standard[2].serial_number” is missing"),
+        ("due = 2027-09-01", 'due = "soon"', "“standard[1].due” must be a date"),
+        ("[people.approver]", "[people.signer]", "“people.approver” is missing"),
+        ("[2e-2, 2e-3, 2e-4]", "[2e-2, 2e-3]", "“capability.rate_relative” must be a list of three"),
+        ("[2e-2, 2e-3, 2e-4]", "[2e-2, nan, 2e-4]", "“capability.rate_relative” must be a number"),
+        ("position_arcsec = 10.0", "position_arcsec = -1", "“capability.position_arcsec” must be a number"),
+        ('certified = ["rate_relative"', 'certified = ["speed"', "“capability.certified” must be names of"),
+        ('# seal = "seal.png"', 'seal = "/etc/passwd" #', "“seal” must be the name of a PNG image"),
+        ("notes = []", 'notes = "none"', "“notes” must be a list of at most"),
+        ('format = "ahrs-lab-job"', 'format = "other"', "is not a job sheet"),
+        ("version = 1", "version = 2", "“version” must be a whole number from 1 to 1"),
+        ("version = 1", "version = ", "is not valid TOML"),
+    ],
+)
+def test_a_defect_is_named_with_its_place(tmp_path: Path, old: str, new: str, says: str) -> None:
+    with pytest.raises(InputError) as refused:
+        read(tmp_path, changed(old, new))
+    assert says in str(refused.value)
+    assert str(refused.value).startswith("JOB.toml")
+    assert "\n" not in refused.value.message.text("zh")
+
+
+def test_a_text_of_endless_length_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="at most 500 characters"):
+        read(tmp_path, changed('"2026-0142"', '"' + "9" * 501 + '"'))
+
+
+def test_other_encodings_missing_and_huge_files_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "JOB.toml"
+    with pytest.raises(InputError, match="cannot be read"):
+        load_job_sheet(path)
+    path.write_bytes(DEMO.read_text(encoding="utf-8").encode("gb18030"))
+    with pytest.raises(InputError, match="not UTF-8"):
+        load_job_sheet(path)
+    path.write_bytes(b"#" * 1_000_001)
+    with pytest.raises(InputError, match="too large"):
+        load_job_sheet(path)
+
+
+def test_a_seal_beside_the_sheet_is_found(tmp_path: Path) -> None:
+    (tmp_path / "seal.png").write_bytes(resource_path("seal/demo-seal.png").read_bytes())
+    job = read(tmp_path, changed('# seal = "seal.png"', 'seal = "seal.png" #'))
+    assert job.seal == tmp_path / "seal.png"
+
+
+@given(st.binary(max_size=300))
+def test_arbitrary_bytes_are_refused_and_never_crash(
+    tmp_path_factory: pytest.TempPathFactory, data: bytes
+) -> None:
+    path = tmp_path_factory.mktemp("job") / "JOB.toml"
+    path.write_bytes(data)
+    with pytest.raises(InputError):
+        load_job_sheet(path)
+
+
+@given(st.integers(0, 60), st.sampled_from(["1", "[]", "{}", '"x"', "2026-01-01", "nan", "true"]))
+def test_any_value_of_the_wrong_kind_is_refused_or_read(
+    tmp_path_factory: pytest.TempPathFactory, line: int, value: str
+) -> None:
+    text = DEMO.read_text(encoding="utf-8").splitlines()
+    settings = [i for i, one in enumerate(text) if "=" in one and not one.startswith("#")]
+    at = settings[line % len(settings)]
+    text[at] = text[at].split("=")[0] + "= " + value
+    path = tmp_path_factory.mktemp("job") / "JOB.toml"
+    path.write_text("\n".join(text), encoding="utf-8")
+    try:
+        job = load_job_sheet(path)
+    except InputError:
+        return
+    assert isinstance(job, JobSheet)

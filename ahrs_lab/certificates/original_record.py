@@ -427,14 +427,6 @@ def _warning_rows(
     for warning in result.warnings:
         line = str(warning.line) if warning.line else DASH
         yield same(warning.segment or DASH), same(line), _text(warning.what, language)
-    for entry in _entries(result.notes, "run_warnings"):
-        what = entry.get("what")
-        text = (
-            _text(Message.from_json(dict(what)), language)
-            if isinstance(what, Mapping) and "template" in what
-            else same(str(what))
-        )
-        yield same(str(entry.get("segment") or DASH)), same(DASH), text
 
 
 def _plan(result: CalibrationResult, language: CertificateLanguage) -> Iterator[Block]:

@@ -9,7 +9,7 @@ from rest to rest.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
@@ -33,6 +33,8 @@ class SegmentWriter(Protocol):
 
     @property
     def segments(self) -> tuple[Segment, ...]: ...
+    @property
+    def notes(self) -> Mapping[str, Any]: ...
     def begin(self, segment: Segment) -> None: ...
     def append(self, samples: Samples) -> None: ...
     def finish(self) -> Segment: ...
@@ -189,7 +191,6 @@ class Recorder:
         def take(samples: Samples) -> None:
             rows = cut.take(samples, watch.offset_s or 0.0)
             if len(rows):
-                rows = self._with_table(rows)
                 self._writer.append(rows)
                 sums.add(rows)
 
@@ -238,10 +239,6 @@ class Recorder:
                 max(cut.duration_s - passed, 0.0),
             )
         )
-
-    def _with_table(self, rows: Samples) -> Samples:
-        angle, rate = self._watch.trace.at(rows["t_s"] + (self._watch.offset_s or 0.0))
-        return rows.with_columns({"table_angle_deg": angle, "table_rate_dps": rate})
 
 
 def _lost_message(cut: _Cut) -> Message:

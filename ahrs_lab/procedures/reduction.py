@@ -70,7 +70,7 @@ def _reduce(
         method=method,
         capability=capability,
     )
-    warnings: list[ResultWarning] = list(selection.warnings)
+    warnings: list[ResultWarning] = [*selection.warnings, *_run_warnings(recording)]
     scale_factors: dict[Axis, ScaleFactorResult] = {}
     for axis in AXES:
         scale_factor, said = reduce_scale_factor(evidence, axis)
@@ -95,9 +95,34 @@ def _reduce(
         environment=_environment(header.notes),
         device=_device(header),
         site=_site(header),
-        notes=dict(header.notes),
+        notes={**header.notes, **_set_aside(recording)},
         simulated=header.notes.get("simulated") is True,
     )
+
+
+def _run_warnings(recording: Recording) -> list[ResultWarning]:
+    """What the runs warned of while they recorded: the room, the azimuth, lost samples; each once."""
+    noted = recording.header.notes.get("run_warnings")
+    files = {r.segment.name: r.segment.file for r in recording.segments if r.counts}
+    found: list[ResultWarning] = []
+    for entry in noted if isinstance(noted, list) else []:
+        if not isinstance(entry, Mapping) or "what" not in entry:
+            continue
+        name = str(entry.get("segment", ""))
+        warning = ResultWarning(message_from_json(entry["what"], "run_warnings"), files.get(name, name))
+        if warning not in found:
+            found.append(warning)
+    return found
+
+
+def _set_aside(recording: Recording) -> dict[str, Any]:
+    """The takes that do not count, each with its reason, for the original record."""
+    takes = [
+        {"segment": segment.file, "reason": segment.reason}
+        for segment in (recorded.segment for recorded in recording.segments)
+        if segment.superseded or segment.interrupted
+    ]
+    return {"repeated": takes} if takes else {}
 
 
 def _check_finite(result: CalibrationResult) -> None:

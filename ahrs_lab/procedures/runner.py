@@ -318,8 +318,10 @@ class Runner:
         if environment:
             notes["environment"] = environment
         if self._warnings:
+            earlier = self._writer.notes.get("run_warnings", [])
             notes["run_warnings"] = [
-                {"what": warned.what.to_json(), "segment": warned.segment} for warned in self._warnings
+                *(earlier if isinstance(earlier, list) else []),
+                *({"what": warned.what.to_json(), "segment": warned.segment} for warned in self._warnings),
             ]
         return notes
 

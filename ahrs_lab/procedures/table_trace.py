@@ -11,6 +11,8 @@ Array = NDArray[np.float64]
 
 _KEEP_S = 5.0
 """Longer than any latency of a sample; what a settling table is judged by is kept longer on request."""
+_AHEAD_S = 1.0
+"""Of a report older than this nothing is concluded."""
 
 
 class TableTrace:
@@ -32,8 +34,15 @@ class TableTrace:
         self._rate_dps = np.concatenate([self._rate_dps[keep], log.rate_dps[fresh], tail[2]])
 
     def at(self, t_s: Array) -> tuple[Array, Array]:
-        """Angle (deg, unwrapped) and rate (°/s) at bench times, shapes (n,), linear between reports."""
-        return np.interp(t_s, self._t_s, self._angle_deg), np.interp(t_s, self._t_s, self._rate_dps)
+        """Angle (deg, unwrapped) and rate (°/s) at bench times, shapes (n,), linear between reports.
+
+        After the last report the table goes on at the rate of that report: a table that is asked some times a
+        second is always a little behind the samples.
+        """
+        angle, rate = np.interp(t_s, self._t_s, self._angle_deg), np.interp(t_s, self._t_s, self._rate_dps)
+        if len(self._t_s):
+            angle += rate * np.clip(t_s - self._t_s[-1], 0.0, _AHEAD_S)
+        return angle, rate
 
     def since(self, t_s: float) -> tuple[Array, Array, Array]:
         """Times, angles, rates reported from ``t_s`` on."""

@@ -97,6 +97,7 @@ class Watch:
         limit = self._silence_limit_s
         silence = self._arrival_gap(samples)
         if len(samples):
+            samples = self._with_table(samples)
             self._on_samples(samples)
             if self.sink is not None:
                 self.sink(samples)
@@ -111,6 +112,10 @@ class Watch:
             supply = self.read_supply()
             self._next_reading = time.monotonic() + READING_INTERVAL_S
             self._on_reading(state, supply, self._bench.room.read())
+
+    def _with_table(self, samples: Samples) -> Samples:
+        angle, rate = self.trace.at(samples["t_s"] + (self._offset_s or 0.0))
+        return samples.with_columns({"table_angle_deg": angle, "table_rate_dps": rate})
 
     def read_supply(self) -> SupplyReading:
         """Raises InstrumentError where the output is off though it should be on."""

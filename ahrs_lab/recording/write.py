@@ -90,6 +90,11 @@ class BundleWriter:
         return self._header
 
     @property
+    def notes(self) -> Mapping[str, Any]:
+        """The header's notes, those of earlier runs with them."""
+        return self._header.notes
+
+    @property
     def segments(self) -> tuple[Segment, ...]:
         """Sealed so far, in the order of recording, superseded and interrupted ones with them."""
         return tuple(self._segments)

@@ -139,6 +139,11 @@ class SimulatedAhrs:
         self._made = last
 
     @property
+    def powered(self) -> bool:
+        """Whether it has its voltage."""
+        return self._powered
+
+    @property
     def made_until_s(self) -> float:
         """Bench time before which no sample will be made any more."""
         return self._booted_s + self._made * self._interval_s if self._powered else self._clock.now_s()

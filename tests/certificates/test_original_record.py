@@ -11,7 +11,6 @@ from ahrs_lab.certificates.job_sheet import JobSheet
 from ahrs_lab.certificates.original_record import column_figures, figure, original_record_pdf
 from ahrs_lab.certificates.plots import plots_pdf
 from ahrs_lab.certificates.richtext import number_of, text_of
-from ahrs_lab.messages import Message
 from ahrs_lab.metrology.result import CalibrationResult
 from tests.certificates.conftest import BUNDLE_SHA256
 from tests.certificates.pdf_text import lines, spans, whole_text
@@ -22,7 +21,6 @@ NOTES = {
     "started_utc": "2026-11-22T08:00:00+00:00",
     "finished_utc": "2026-11-22T15:01:02+00:00",
     "repeated": [{"segment": "sf_x_03", "reason": "the table tripped"}],
-    "run_warnings": [{"what": Message("The file is not signed").to_json(), "segment": "zo_x_1"}],
     "plan": {"name": "JJF 1536-2015", "scale_factor": {"rates_dps": [10.0, -10.0], "dwell_s": 20.0}},
 }
 
@@ -88,7 +86,6 @@ def test_the_rate_table_is_in_the_order_run_with_residuals(
         "演示核验员",
         "sf_x_before, sf_x_00, zo_x_1",
         "sf_x_03 the table tripped",
-        "zo_x_1 — 文件未签名",
         "sf_x_00 3 The unit was warm",
         "The dwell is shorter",
         "scale_factor.dwell_s 20.0",

@@ -304,7 +304,7 @@ class MemoryWriter:
     def __init__(self, segments: tuple[Segment, ...] = ()) -> None:
         self._segments = list(segments)
         self.samples: dict[str, Samples] = {}
-        self.notes: dict[str, Any] = {}
+        self._notes: dict[str, Any] = {}
         self.fails: AhrsLabError | None = None
         self._open: Segment | None = None
         self._blocks: list[Samples] = []
@@ -312,6 +312,10 @@ class MemoryWriter:
     @property
     def segments(self) -> tuple[Segment, ...]:
         return tuple(self._segments)
+
+    @property
+    def notes(self) -> dict[str, Any]:
+        return self._notes
 
     @property
     def finished(self) -> list[str]:

@@ -179,6 +179,8 @@ def test_a_room_out_of_limits_is_in_the_record(tmp_path: Path) -> None:
     assert len(outcome.warnings) == 2
     environment = read_bundle(tmp_path / "run").header.notes["environment"]
     assert environment["temperature_c"] + environment["temperature_spread_c"] > 23.0
+    result = reduce_recording(read_bundle(tmp_path / "run"))
+    assert sum("6.2.1" in warning.what.text() for warning in result.warnings) == 2
 
 
 @pytest.mark.parametrize("kept", [0, 1, 5, 9, 11, 14])

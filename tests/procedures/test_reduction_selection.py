@@ -100,6 +100,7 @@ def test_the_last_take_counts() -> None:
     broken = set_aside(changed(made[1], gyro_x=made[1].samples["gyro_x"] + 1.0), interrupted=True)
     result = reduce_recording(complete(unit, [made[0], broken, made[1], wrong, made[2], made[3]]))
     assert pytest.approx(1e-3) == result.zero_offset["x"].B
+    assert [take["segment"] for take in result.notes["repeated"]] == [broken.segment.file, wrong.segment.file]
 
 
 def test_lost_samples_of_a_dwell_do_not_change_the_zero_offset() -> None:

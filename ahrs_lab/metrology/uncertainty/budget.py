@@ -109,8 +109,7 @@ def from_half_width(
 
 
 def effective_dof(contributions: Sequence[float], dofs: Sequence[float]) -> float:
-    """Welch–Satterthwaite (JCGM 100, G.2b): infinite where no row of finite dof contributes
-    to speak of."""
+    """Welch–Satterthwaite (JCGM 100, G.2b): infinite where no row of finite dof contributes to speak of."""
     largest = max(contributions, default=0.0)
     if largest == 0.0:
         return math.inf

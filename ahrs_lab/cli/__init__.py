@@ -61,7 +61,9 @@ def _parser() -> argparse.ArgumentParser:
     demo.add_argument("--language", choices=("en", "zh"), help="language of screen and texts")
     demo.add_argument("--speed", type=_speed, metavar="N|max", help="bench time over wall time")
     demo.add_argument("--headless", action="store_true", help="the whole calibration without a screen")
-    demo.add_argument("--out", type=Path, metavar="DIR", help="where a headless demonstration leaves its files")
+    demo.add_argument(
+        "--out", type=Path, metavar="DIR", help="where a headless demonstration leaves its files"
+    )
     demo.add_argument("--plan", type=Path, metavar="PLAN.toml", help="another plan than the standard one")
 
     run = command("run", "Runs a plan on a bench without a screen and evaluates it.")
@@ -84,8 +86,14 @@ def _parser() -> argparse.ArgumentParser:
 
     verify = command("verify", "Who signed a certificate, when, and whether anything changed since.")
     verify.add_argument("file", type=Path, metavar="FILE.pdf")
-    verify.add_argument("--trust", type=Path, action="append", default=[], metavar="ROOT.pem",
-                        help="a root certificate to trust beside the laboratory's own")
+    verify.add_argument(
+        "--trust",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="ROOT.pem",
+        help="a root certificate to trust beside the laboratory's own",
+    )
 
     export = command("export", "Writes a job's recording out of the records.")
     export.add_argument("job", metavar="JOB")
@@ -93,12 +101,40 @@ def _parser() -> argparse.ArgumentParser:
 
     take_in = command("import", "Takes a recording into the records.")
     take_in.add_argument("bundle", type=Path, metavar="BUNDLE")
+
+    simulate = command("simulate", "Serves simulated instruments in their real protocols, and says where.")
+    simulate.add_argument("--bench", type=Path, required=True, metavar="BENCH.toml")
+    simulate.add_argument(
+        "--ahrs", choices=("vectornav", "xsens", "microstrain"), help="protocol of the unit (vectornav)"
+    )
+    simulate.add_argument("--tcp", action="store_true", help="the unit on TCP, not on a pseudo-terminal")
+    simulate.add_argument("--faults", default="", metavar="NAME=VALUE,…", help="what goes wrong, how much")
+    simulate.add_argument("--speed", type=float, default=1.0, metavar="N", help="bench over wall time (1)")
+    simulate.add_argument(
+        "--write-bench", type=Path, metavar="FILE.toml", help="bench file for “ahrs-lab run” on these ports"
+    )
+
+    replay = command("replay", "Decodes raw bytes of a link as the live driver would.")
+    replay.add_argument("raw", type=Path, metavar="RAW")
+    replay.add_argument(
+        "--protocol",
+        required=True,
+        metavar="NAME",
+        help="vectornav, xsens, mip, anpp, nmea, or a FILE.toml that describes a private format",
+    )
+    replay.add_argument("--rate", type=float, metavar="HZ", help="sample rate where the device sends no time")
+    replay.add_argument("--latitude", type=float, default=0.0, metavar="DEG", help="of the bench, for --out")
+    replay.add_argument("--out", type=Path, metavar="BUNDLE", help="write the samples as a recording")
     return parser
 
 
 def _evaluation_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--rates", choices=("demanded", "table"), default="demanded",
-                        help="Ω: the demanded rates, or the table's angle over time")
+    parser.add_argument(
+        "--rates",
+        choices=("demanded", "table"),
+        default="demanded",
+        help="Ω: the demanded rates, or the table's angle over time",
+    )
     parser.add_argument("--uncertainty", choices=("gum", "annex-a"), default="gum")
 
 
@@ -110,7 +146,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             reconfigure(encoding="utf-8", errors="replace")
     arguments = _parser().parse_args(argv)
     try:
-        from ahrs_lab.cli import commands  # noqa: PLC0415  see the module's docstring
+        from ahrs_lab.cli import commands
 
         return commands.run(arguments)
     except AhrsLabError as error:

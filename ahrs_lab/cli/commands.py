@@ -1,0 +1,188 @@
+"""What each command does: read the call's files, ask the laboratory, print text or one JSON object."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from typing import Any
+
+from ahrs_lab.cli.progress import ProgressLine
+from ahrs_lab.cli.stop_signals import stop_signals
+from ahrs_lab.errors import InputError
+from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle, read_result, write_files
+from ahrs_lab.metrology.result import CalibrationResult
+from ahrs_lab.metrology.result_json import to_json
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """The command of ``arguments``; None opens the application."""
+    if arguments.command is None:
+        return _application(language=None, speed=1.0, demonstration=False)
+    return int(_COMMANDS[arguments.command](arguments))
+
+
+def _say(arguments: argparse.Namespace, data: dict[str, Any], text: str) -> None:
+    print(json.dumps(data, ensure_ascii=False, allow_nan=False) if arguments.json else text)
+
+
+def _application(*, language: str | None, speed: float | None, demonstration: bool) -> int:
+    from concurrent.futures import ThreadPoolExecutor
+
+    from ahrs_lab.laboratory.laboratory import Laboratory
+
+    with Laboratory() as laboratory:
+        # The people's password hashes take as long as the screen's libraries: both at once.
+        with ThreadPoolExecutor(1) as beside:
+            prepared = beside.submit(laboratory.prepare_demo) if demonstration else None
+            import ahrs_lab.ui.main_window
+            import ahrs_lab.ui.pages.all_pages  # noqa: F401
+            from ahrs_lab.ui.application import run_application
+        if prepared is not None:
+            prepared.result()
+        return run_application(laboratory, language=language, speed=speed, demo=demonstration)
+
+
+def _demo(arguments: argparse.Namespace) -> int:
+    if not arguments.headless:
+        if arguments.out is not None:
+            raise InputError("--out belongs to --headless: with a screen the records keep everything.")
+        speed = arguments.speed if arguments.speed is not None else 20.0
+        return _application(language=arguments.language, speed=speed, demonstration=True)
+    from ahrs_lab.laboratory.demonstration import run_demonstration
+    from ahrs_lab.procedures.plan import load_plan
+
+    if arguments.out is None:
+        raise InputError("Say with --out DIR where the demonstration shall leave its files.")
+    plan = load_plan(arguments.plan) if arguments.plan else None
+    with stop_signals(), ProgressLine(sys.stderr) as progress:
+        outcome = run_demonstration(
+            arguments.out, plan=plan, speed=arguments.speed, on_event=progress.event, on_stage=progress.stage
+        )
+    files = {name: str(path) for name, path in outcome.files.items()}
+    data = {**to_json(outcome.result), "files": files}
+    lines = [summary(outcome.result), "", "Files:"]
+    lines += [f"  {name.replace('_', ' '):16} {path}" for name, path in files.items()]
+    _say(arguments, data, "\n".join(lines))
+    return 0
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    from ahrs_lab.laboratory.benches import load_bench
+    from ahrs_lab.laboratory.headless import run_plan
+    from ahrs_lab.procedures.plan import load_plan
+
+    plan = load_plan(arguments.plan)
+    bench = load_bench(arguments.bench, speed=arguments.speed)
+    try:
+        with stop_signals(), ProgressLine(sys.stderr) as progress:
+            outcome = run_plan(
+                plan, bench, arguments.out, on_event=progress.event, settings=_settings(arguments)
+            )
+    finally:
+        bench.close()
+    files = {name: str(path) for name, path in outcome.files.items()}
+    data = {**to_json(outcome.result), "files": {"recording": str(outcome.bundle), **files}}
+    _say(arguments, data, f"{summary(outcome.result)}\n\nFiles: {arguments.out}")
+    return 0
+
+
+def _settings(arguments: argparse.Namespace) -> EvaluationSettings:
+    return EvaluationSettings(rates=arguments.rates, uncertainty=arguments.uncertainty)
+
+
+def _evaluate(arguments: argparse.Namespace) -> int:
+    result = evaluate_bundle(arguments.bundle, _settings(arguments))
+    text = summary(result)
+    if arguments.out is not None:
+        files = write_files(result, arguments.out)
+        text += "\n\nFiles: " + ", ".join(str(path) for path in files.values())
+    _say(arguments, to_json(result), text)
+    return 0
+
+
+def _certificate(arguments: argparse.Namespace) -> int:
+    from ahrs_lab.certificates.certificate import certificate_pdf
+    from ahrs_lab.certificates.job_sheet import load_job_sheet
+    from ahrs_lab.laboratory.evaluation import OutputFolder
+
+    result, job = read_result(arguments.result), load_job_sheet(arguments.job)
+    with OutputFolder(arguments.out.parent):
+        certificate_pdf(result, job, arguments.out, arguments.language)
+    data = {"certificate": str(arguments.out), "number": job.certificate_number}
+    _say(arguments, data, f"Certificate {job.certificate_number}: {arguments.out} (not signed yet)")
+    return 0
+
+
+def _verify(arguments: argparse.Namespace) -> int:
+    from ahrs_lab.laboratory import certification
+    from ahrs_lab.laboratory.home import home_folder
+
+    report = certification.verify(home_folder(), arguments.file, arguments.trust)
+    _say(arguments, report.to_json(), report.text())
+    return 0 if report.valid and not report.unsigned_fields else 1
+
+
+def _export(arguments: argparse.Namespace) -> int:
+    from ahrs_lab.laboratory.laboratory import Laboratory
+
+    with Laboratory() as laboratory:
+        written = laboratory.export(arguments.job, arguments.dir)
+    _say(arguments, {"job": arguments.job, "bundle": str(written)}, f"Job {arguments.job}: {written}")
+    return 0
+
+
+def _import(arguments: argparse.Namespace) -> int:
+    from ahrs_lab.laboratory.laboratory import Laboratory
+
+    with Laboratory() as laboratory:
+        number = laboratory.import_bundle(arguments.bundle)
+    _say(arguments, {"job": number}, f"Taken into the records as job {number}.")
+    return 0
+
+
+def _simulate(arguments: argparse.Namespace) -> int:
+    from ahrs_lab.cli import simulate
+
+    return simulate.run(arguments)
+
+
+def _replay(arguments: argparse.Namespace) -> int:
+    from ahrs_lab.cli import replay
+
+    return replay.run(arguments)
+
+
+def summary(result: CalibrationResult) -> str:
+    """The result as a person reads it in a terminal: value ± U, rounded as on a certificate."""
+    from ahrs_lab.metrology.rounding import round_to_uncertainty
+
+    def line(name: str, value: float, expanded: float, unit: str, k: float) -> str:
+        rounded = round_to_uncertainty(value, expanded)
+        return f"  {name:8} {rounded.value:>14} ± {rounded.expanded:<12} {unit}  (k = {k:.2f})"
+
+    lines = [f"{result.procedure}, recording {result.bundle_sha256[:16]}…"]
+    for axis, k in result.scale_factor.items():
+        lines.append(line(f"K_{axis}", k.K, k.uncertainty.expanded, k.unit, k.uncertainty.coverage_factor))
+    for axis, b in result.zero_offset.items():
+        lines.append(line(f"B_{axis}", b.B, b.uncertainty.expanded, b.unit, b.uncertainty.coverage_factor))
+    for pair, m in result.misalignment.items():
+        lines.append(line(f"L_{pair}", m.L, m.uncertainty.expanded, m.unit, m.uncertainty.coverage_factor))
+    lines += [f"  deviation: {message.text()}" for message in result.deviations]
+    for warning in result.warnings:
+        place = f"{warning.segment}:{warning.line}: " if warning.segment else ""
+        lines.append(f"  warning: {place}{warning.what.text()}")
+    return "\n".join(lines)
+
+
+_COMMANDS = {
+    "demo": _demo,
+    "run": _run,
+    "evaluate": _evaluate,
+    "certificate": _certificate,
+    "verify": _verify,
+    "export": _export,
+    "import": _import,
+    "simulate": _simulate,
+    "replay": _replay,
+}

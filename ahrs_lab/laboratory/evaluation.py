@@ -1,0 +1,116 @@
+"""From a recording to its result and the files that show it; the live run and ``evaluate`` both come here, so
+they give the same numbers."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import ahrs_lab
+from ahrs_lab.errors import InputError, MachineError
+from ahrs_lab.metrology.conditions import BenchCapability
+from ahrs_lab.metrology.result import CalibrationResult
+from ahrs_lab.metrology.result_json import from_json, to_json
+
+SOFTWARE = f"ahrs-lab {ahrs_lab.__version__}"
+MAXIMAL_RESULT_BYTES = 64 * 2**20
+
+
+@dataclass(frozen=True)
+class EvaluationSettings:
+    """What the person chooses: Ω from the demand or the table, and the method of uncertainty."""
+
+    rates: Literal["demanded", "table"] = "demanded"
+    uncertainty: Literal["gum", "annex-a"] = "gum"
+
+
+def evaluate_bundle(
+    bundle: Path, settings: EvaluationSettings | None = None, capability: BenchCapability | None = None
+) -> CalibrationResult:
+    """Read ``bundle`` (folder or ``.ahrsrec``) with all its checks and reduce it."""
+    from ahrs_lab.procedures.reduction import reduce_recording
+    from ahrs_lab.recording.read import read_bundle
+
+    settings = settings or EvaluationSettings()
+    return reduce_recording(
+        read_bundle(bundle),
+        rates=settings.rates,
+        uncertainty=settings.uncertainty,
+        capability=capability or BenchCapability(),
+        software=SOFTWARE,
+    )
+
+
+def write_files(result: CalibrationResult, folder: Path) -> dict[str, Path]:
+    """Leave ``result.json``, ``plots.pdf`` and ``original-record.pdf`` in ``folder``; returns where they
+    are."""
+    from ahrs_lab.certificates.original_record import original_record_pdf
+    from ahrs_lab.certificates.plots import plots_pdf
+
+    files = {
+        "result": folder / "result.json",
+        "plots": folder / "plots.pdf",
+        "original_record": folder / "original-record.pdf",
+    }
+    with OutputFolder(folder):
+        write_json(to_json(result), files["result"])
+        plots_pdf(result, files["plots"])
+        original_record_pdf(result, files["original_record"])
+    return files
+
+
+def write_json(data: dict[str, Any], target: Path) -> None:
+    """Strict JSON, readable, whole or not at all."""
+    partial = target.with_name(target.name + ".part")
+    partial.write_text(
+        json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n", encoding="utf-8"
+    )
+    partial.replace(target)
+
+
+def read_result(path: Path) -> CalibrationResult:
+    """A result file written earlier; from outside, so it is checked."""
+    try:
+        if path.stat().st_size > MAXIMAL_RESULT_BYTES:
+            raise InputError("{path} is too large for a result: is it the right file?", path=path)
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError("{path} cannot be read ({reason}).", path=path, reason=error.strerror) from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(
+            "{path} is not a result: it is not JSON ({reason}). Give the result.json that “evaluate” wrote.",
+            path=path,
+            reason=str(error),
+        ) from error
+    if not isinstance(data, dict):
+        raise InputError("{path} is not a result: it holds no JSON object.", path=path)
+    return from_json(data)
+
+
+class OutputFolder:
+    """``with OutputFolder(path)``: the folder exists, and what the machine refuses is said in plain
+    words."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+
+    def __enter__(self) -> Path:
+        try:
+            self._path.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise self._refused(error) from error
+        return self._path
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, OSError):
+            raise self._refused(error) from error
+
+    def _refused(self, error: OSError) -> MachineError:
+        return MachineError(
+            "Cannot write into {path}: {reason}. Free space or choose another folder; nothing recorded is "
+            "lost.",
+            path=self._path,
+            reason=error.strerror or str(error),
+        )

@@ -1,0 +1,114 @@
+"""From a job in the records to the sheet its certificate is made of, and the bench figures of its budget."""
+
+from __future__ import annotations
+
+from datetime import date
+from typing import cast
+
+from ahrs_lab.certificates.job_sheet import DeviceUnderTest, JobSheet, Party, Person
+from ahrs_lab.errors import InputError
+from ahrs_lab.messages import Message
+from ahrs_lab.metrology.conditions import BenchCapability, Standard, StandardKind, clause6_violations
+from ahrs_lab.metrology.result import CalibrationResult, Method
+from ahrs_lab.records.rows import JobRow, LaboratoryRow, PersonRow, StandardRow
+
+
+def standards_of(job: JobRow) -> tuple[Standard, ...]:
+    """The job's standards as metrology knows them."""
+    return tuple(_standard(row) for row in job.standards)
+
+
+def _standard(row: StandardRow) -> Standard:
+    return Standard(
+        kind=cast("StandardKind", row.kind),
+        name=row.name,
+        name_zh=row.name_zh,
+        manufacturer=row.manufacturer,
+        model=row.model,
+        serial_number=row.serial_number,
+        accuracy=row.accuracy,
+        accuracy_zh=row.accuracy_zh,
+        certificate_number=row.certificate_number,
+        due=row.due,
+        traceability=row.traceability,
+    )
+
+
+def capability(job: JobRow) -> BenchCapability:
+    """The bench's figures for the budget: clause 6's own, called certified where the job's table and fixture
+    have a certificate that holds them, else assumed."""
+    certified: list[str] = []
+    kinds = {row.kind for row in job.standards if row.certificate_number}
+    if "table" in kinds:
+        certified += ["rate_relative", "position_arcsec"]
+    if "fixture" in kinds:
+        certified += ["fixture_perpendicularity_arcsec"]
+    return BenchCapability(certified=tuple(certified))
+
+
+def violations(job: JobRow, result: CalibrationResult | None) -> tuple[Message, ...]:
+    """What violates clause 6: standards missing or overdue, and, once measured, the room."""
+    return clause6_violations(
+        standards_of(job),
+        on_date=job.calibrated or date.today(),  # noqa: DTZ011  due dates are the laboratory's own
+        environment=result.environment if result is not None else None,
+        capability=capability(job),
+    )
+
+
+def job_sheet(
+    job: JobRow,
+    laboratory: LaboratoryRow,
+    result: CalibrationResult,
+    *,
+    issued: date | None,
+    accepted_violations: tuple[str, ...] = (),
+) -> JobSheet:
+    """Everything of the certificate that was not measured; raises InputError where something is missing
+    yet."""
+    people = {"operator": job.operator, "verifier": job.verifier, "approver": job.approver}
+    for role, row in people.items():
+        if row is None:
+            raise InputError(
+                "Job {number} has no {role} yet: choose one in the job.", number=job.number, role=role
+            )
+    if not laboratory.name:
+        raise InputError("The laboratory has no name yet: enter it on the page Set-up.")
+    uncertainties = [
+        *(k.uncertainty for k in result.scale_factor.values()),
+        *(b.uncertainty for b in result.zero_offset.values()),
+        *(m.uncertainty for m in result.misalignment.values()),
+    ]
+    method: Method = uncertainties[0].method if uncertainties else "gum"
+    return JobSheet(
+        number=job.number,
+        certificate_number=job.certificate_number,
+        laboratory=Party(laboratory.name, laboratory.address, laboratory.name_en, laboratory.address_en),
+        customer=Party(
+            job.customer.name, job.customer.address, job.customer.name_en, job.customer.address_en
+        ),
+        device=DeviceUnderTest(
+            job.device.name,
+            job.device.manufacturer,
+            job.device.model,
+            job.device.serial_number,
+            job.device.name_en,
+        ),
+        operator=_person(job.operator),
+        verifier=_person(job.verifier),
+        approver=_person(job.approver),
+        received=job.received,
+        calibrated=job.calibrated or date.today(),  # noqa: DTZ011
+        issued=issued,
+        place=job.place,
+        place_en=job.place_en,
+        standards=standards_of(job),
+        capability=capability(job),
+        uncertainty_method=method,
+        accepted_violations=accepted_violations,
+        demonstration=result.simulated,
+    )
+
+
+def _person(row: PersonRow | None) -> Person:
+    return Person(row.name, row.position, row.name_en, row.position_en) if row is not None else Person("")

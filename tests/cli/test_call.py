@@ -1,0 +1,70 @@
+"""The call itself: help, unknown words, exit codes, one line for a fault."""
+
+import subprocess
+import sys
+
+import pytest
+
+from ahrs_lab.cli import main
+
+COMMANDS = ("demo", "run", "evaluate", "certificate", "verify", "export", "import")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_each_command_explains_itself(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main([command, "--help"])
+    assert end.value.code == 0
+    assert command in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        ["fly"],
+        ["evaluate"],
+        ["evaluate", "x", "--uncertainty", "guess"],
+        ["demo", "--speed", "0"],
+        ["demo", "--speed", "fast"],
+    ],
+)
+def test_a_wrong_call_is_one_line_and_exit_2(call: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(call)
+    captured = capsys.readouterr()
+    assert end.value.code == 2
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        ["evaluate", "/nowhere/at-all"],
+        ["verify", "/nowhere/at-all.pdf"],
+        ["certificate", "/nowhere.json", "--job", "/nowhere.toml", "--out", "/tmp/never.pdf"],
+        ["run", "/nowhere.toml", "--bench", "/nowhere.toml", "--out", "/tmp/never"],
+        ["import", "/nowhere/at-all"],
+        ["export", "1999-0001", "/tmp/never"],
+        ["demo", "--headless"],
+        ["demo", "--out", "/tmp/never"],
+    ],
+)
+def test_what_is_not_there_is_named_in_one_line(call: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(call) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("ahrs-lab: ")
+    assert captured.err.count("\n") == 1
+
+
+def test_help_needs_none_of_the_heavy_libraries() -> None:
+    code = (
+        "import sys; from ahrs_lab.cli import main\n"
+        "try: main(['--help'])\n"
+        "except SystemExit: pass\n"
+        "heavy = {'numpy', 'scipy', 'PySide6', 'pyarrow', 'reportlab', 'pyhanko', 'sqlalchemy'}\n"
+        "print(sorted(heavy & set(sys.modules)), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr.strip() == "[]"

@@ -1,0 +1,235 @@
+"""The application: one event loop around one window, and what has to hold while it runs.
+
+Imports of pages and plots come after the first look at the arguments, so that the window is there within
+1.5 s.
+"""
+
+from __future__ import annotations
+
+import gc
+import logging
+import sys
+import traceback
+from collections.abc import Callable
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer
+from PySide6.QtWidgets import QApplication, QMessageBox, QWidget
+
+from ahrs_lab.errors import AhrsLabError
+from ahrs_lab.ui.theme import ThemeSwitch
+from ahrs_lab.ui.translation import LanguageSwitch, said
+
+if TYPE_CHECKING:
+    from ahrs_lab.laboratory.laboratory import Laboratory
+    from ahrs_lab.ui.main_window import MainWindow
+    from ahrs_lab.ui.pages.desk import Desk
+    from ahrs_lab.ui.workspace import Workspace
+
+COLLECT_MS = 5000
+LOG_BYTES = 1_000_000
+
+log = logging.getLogger("ahrs_lab")
+
+
+def run_application(
+    laboratory: Laboratory,
+    *,
+    language: str | None = None,
+    speed: float | None = 1.0,
+    demo: bool = False,
+) -> int:
+    """Open the window on ``laboratory`` and stay until it is closed; returns the exit code.
+
+    ``language`` ("en", "zh") overrides what the person chose last; ``speed`` is bench time over wall time
+    of a simulated bench, None: as fast as it goes; ``demo`` marks all pages and signs the demonstration's
+    operator in.
+    """
+    existing = QApplication.instance()
+    app = existing if isinstance(existing, QApplication) else QApplication(sys.argv[:1])
+    app.setApplicationName("ahrs-lab")
+    log_to(laboratory.home / "ahrs-lab.log")
+    keeper = FaultKeeper(app)
+    screen = Screen(app, laboratory, language=language, speed=speed, demo=demo)
+    keeper.parent_window = screen.window
+    screen.window.show()
+    collector = GuiCollector(app)
+    try:
+        return app.exec()
+    finally:
+        collector.stop()
+        screen.close()
+        keeper.restore()
+
+
+class Screen:
+    """The window with its pages, and the switches of theme and language; tests make one without an event
+    loop."""
+
+    def __init__(
+        self,
+        app: QApplication,
+        laboratory: Laboratory,
+        *,
+        language: str | None = None,
+        speed: float | None = 1.0,
+        demo: bool = False,
+    ) -> None:
+        settings = laboratory.settings
+        self._laboratory = laboratory
+        self.theme = ThemeSwitch(app, settings.theme)
+        self.language = LanguageSwitch(app, "zh" if (language or settings.language) == "zh" else "en")
+        # Late: they bring the plots, half a second of imports.
+        from ahrs_lab.ui.main_window import MainWindow
+        from ahrs_lab.ui.pages.desk import Desk
+        from ahrs_lab.ui.workspace import Workspace
+
+        self.workspace: Workspace = Workspace(laboratory, settings, speed=speed)
+        self.desk: Desk = Desk(self.workspace, self.workspace)
+        self.window: MainWindow = MainWindow(self.workspace, theme=settings.theme)
+        self._add_pages()
+        self.window.context.theme_chosen.connect(self.choose_theme)
+        self.window.context.language_chosen.connect(self.choose_language)
+        self.window.context.set_demonstration(demo)
+        if demo:
+            self._open_demonstration()
+
+    def _add_pages(self) -> None:
+        from ahrs_lab.ui.pages.all_pages import make_pages
+        from ahrs_lab.ui.pages.setup import SetupPage
+        from ahrs_lab.ui.run.page import RunPage
+
+        pages = list(make_pages(self.desk))
+        pages.insert(2, RunPage(self.workspace, self.desk.resume_run, self.desk.repeat_segment))
+        for page in pages:
+            self.window.add_page(page)
+            if isinstance(page, SetupPage):
+                page.theme_chosen.connect(self.choose_theme)
+                page.language_chosen.connect(self.choose_language)
+
+    def _open_demonstration(self) -> None:
+        from ahrs_lab.laboratory.demonstration import OPERATOR, PASSWORD
+
+        try:
+            self.desk.sign_in(self._laboratory.sign_in(OPERATOR.name, PASSWORD))
+        except AhrsLabError:
+            # Somebody has made the demonstration laboratory their own: they sign in themselves.
+            return
+
+    def choose_theme(self, mode: str) -> None:
+        """Switch and remember."""
+        if mode in ("light", "dark", "system"):
+            self.theme.set_mode(mode)  # type: ignore[arg-type]
+            self._laboratory.settings.theme = mode  # type: ignore[assignment]
+            self.window.context.set_theme(mode)
+            self._remember()
+
+    def choose_language(self, language: str) -> None:
+        """Switch and remember."""
+        if language in ("en", "zh"):
+            self.language.set_language(language)  # type: ignore[arg-type]
+            self._laboratory.settings.language = language  # type: ignore[assignment]
+            self._remember()
+
+    def _remember(self) -> None:
+        try:
+            self._laboratory.settings.save()
+        except OSError:
+            log.warning("the settings of the screen were not kept", exc_info=True)
+
+    def close(self) -> None:
+        """Nothing of the screen works on after this."""
+        self.workspace.run.close()
+        self.desk.close()
+
+
+class GuiCollector(QObject):
+    """Garbage is collected in the GUI thread only.
+
+    Python may collect in whichever thread allocates; in a run's thread it would delete Qt objects there and
+    crash.
+    """
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        gc.collect()
+        gc.freeze()
+        gc.disable()
+        self._timer = QTimer(self)
+        self._timer.timeout.connect(self._collect)
+        self._timer.start(COLLECT_MS)
+
+    def _collect(self) -> None:
+        gc.collect(1)
+
+    def stop(self) -> None:
+        """Python collects by itself again."""
+        self._timer.stop()
+        gc.unfreeze()
+        gc.enable()
+
+
+class FaultKeeper(QObject):
+    """Faults that nobody caught: logged, and shown with their details, instead of ending the application."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self.parent_window: QWidget | None = None
+        self._before: Callable[..., object] = sys.excepthook
+        self._open = False
+        sys.excepthook = self.caught
+
+    def restore(self) -> None:
+        """As it was before."""
+        sys.excepthook = self._before
+
+    def caught(self, kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        if issubclass(kind, KeyboardInterrupt):
+            QApplication.quit()
+            return
+        log.error("not caught", exc_info=(kind, error, trace))
+        # One at a time: a fault in a timer comes thirty times a second.
+        if self._open:
+            return
+        self._open = True
+        try:
+            self.dialog(error, "".join(traceback.format_exception(kind, error, trace))).exec()
+        finally:
+            self._open = False
+
+    def dialog(self, error: BaseException, details: str) -> QMessageBox:
+        """The message for a person, with the traceback behind a button."""
+        box = QMessageBox(self.parent_window)
+        box.setIcon(QMessageBox.Icon.Critical)
+        if isinstance(error, AhrsLabError):
+            box.setWindowTitle(self.tr("That did not work"))
+            box.setText(said(error.message))
+        else:
+            box.setWindowTitle(self.tr("A fault of the application"))
+            box.setText(
+                self.tr(
+                    "Something went wrong that should not. A run that is going on is not "
+                    "touched by it, and what "
+                    "is recorded is on disk."
+                )
+            )
+            box.setInformativeText(self.tr("The details are in the log; please pass them on."))
+        box.setDetailedText(details)
+        return box
+
+
+def log_to(path: Path) -> None:
+    """Warnings and worse go to ``path`` too; a folder that cannot be written is not a reason to stay
+    closed."""
+    if any(isinstance(handler, RotatingFileHandler) for handler in log.handlers):
+        return
+    try:
+        handler = RotatingFileHandler(path, maxBytes=LOG_BYTES, backupCount=1, encoding="utf-8", delay=True)
+    except OSError:
+        return
+    handler.setLevel(logging.WARNING)
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
+    log.addHandler(handler)

@@ -1,0 +1,50 @@
+"""Numbers as a person reads them: as many digits as are meant, thin space for thousands, true minus."""
+
+from __future__ import annotations
+
+import math
+from datetime import timedelta
+
+THIN_SPACE = "\u2009"
+MINUS = "\u2212"
+DASH = "–"
+"""Stands where there is no value yet."""
+
+
+def number(value: float | None, decimals: int, *, plus: bool = False) -> str:
+    """``12 345.60``, ``−0.5``; ``plus`` writes the sign of positive values too. A value that rounds to zero
+    has no sign; None and not-a-number are a dash."""
+    if value is None or not math.isfinite(value):
+        return DASH
+    text = f"{abs(value):,.{decimals}f}".replace(",", THIN_SPACE)
+    if float(f"{value:.{decimals}f}") == 0.0:
+        return text
+    if value < 0:
+        return MINUS + text
+    return "+" + text if plus else text
+
+
+def count(value: int) -> str:
+    """``41 200``."""
+    return number(float(value), 0)
+
+
+def signed_rate(value_dps: float) -> str:
+    """A demanded rate without digits that are not meant: ``−100``, ``0.5``."""
+    text = f"{abs(value_dps):.6f}".rstrip("0").rstrip(".")
+    return (MINUS if value_dps < 0 else "") + text
+
+
+def duration(seconds: float | None) -> str:
+    """``0:24``, ``52:10``, ``1:12:10``; rounded up, so that nothing stands at zero before it is over."""
+    if seconds is None or not math.isfinite(seconds):
+        return DASH
+    whole = max(0, math.ceil(seconds - 1e-6))
+    hours, rest = divmod(whole, 3600)
+    minutes, left = divmod(rest, 60)
+    return f"{hours}:{minutes:02d}:{left:02d}" if hours else f"{minutes}:{left:02d}"
+
+
+def wall_time_left(bench_seconds: float, speed: float | None) -> timedelta | None:
+    """How long that takes by the clock on the wall; None where the bench runs as fast as it goes."""
+    return None if speed is None or speed <= 0 else timedelta(seconds=bench_seconds / speed)

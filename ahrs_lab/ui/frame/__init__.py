@@ -1,0 +1,1 @@
+"""What stands around every page: navigation, context, health of the bench, STOP."""

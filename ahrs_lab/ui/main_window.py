@@ -1,0 +1,170 @@
+"""The window: rail, context, the page in front, health, STOP. It knows pages only as
+:class:`~ahrs_lab.ui.page.Page`."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QRectF, Qt
+from PySide6.QtGui import QCloseEvent, QIcon, QKeySequence, QPainter, QPixmap, QShortcut
+from PySide6.QtWidgets import QHBoxLayout, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
+
+from ahrs_lab.messages import Message
+from ahrs_lab.ui.frame.context_bar import ContextBar
+from ahrs_lab.ui.frame.health_strip import HealthStrip
+from ahrs_lab.ui.frame.navigation_rail import NavigationRail, paint_emblem
+from ahrs_lab.ui.frame.stop_bar import StopBar
+from ahrs_lab.ui.page import Page
+from ahrs_lab.ui.theme import CARD_MARGIN, ThemeMode
+from ahrs_lab.ui.translation import said
+from ahrs_lab.ui.widgets import Banner
+from ahrs_lab.ui.workspace import Workspace
+
+SMALLEST = (1024, 680)
+FIRST_SIZE = (1366, 768)
+
+
+class MainWindow(QWidget):
+    """Pages in the order in which they are added."""
+
+    def __init__(self, workspace: Workspace, *, theme: ThemeMode = "system") -> None:
+        super().__init__()
+        self.workspace = workspace
+        self.setWindowIcon(_icon())
+        self.setMinimumSize(*SMALLEST)
+        self.resize(*FIRST_SIZE)
+        self.pages: dict[str, Page] = {}
+        self.rail = NavigationRail()
+        self.context = ContextBar(workspace, theme)
+        self.notice = Banner(closable=True)
+        self.notice.setVisible(False)
+        self._notice_kind = ""
+        self.stack = QStackedWidget()
+        self.health = HealthStrip(workspace)
+        self.stop_bar = StopBar(workspace)
+        self._lay_out()
+        self.rail.chosen.connect(self.show_page)
+        workspace.page_requested.connect(self.show_page)
+        workspace.noticed.connect(self._show_notice)
+        for signal in (workspace.run.started, workspace.run.ended):
+            signal.connect(self._mark_run)
+        escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self)
+        escape.activated.connect(self.stop_bar.stop)
+        self.retranslate()
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        column = QVBoxLayout()
+        column.setSpacing(0)
+        row.addWidget(self.rail)
+        row.addLayout(column, 1)
+        banner = QVBoxLayout()
+        banner.setContentsMargins(CARD_MARGIN, CARD_MARGIN, CARD_MARGIN, 0)
+        banner.addWidget(self.notice)
+        self._notice_room = QWidget()
+        self._notice_room.setLayout(banner)
+        self._notice_room.setVisible(False)
+        self.notice.closed.connect(self._close_notice)
+        column.addWidget(self.context)
+        column.addWidget(self._notice_room)
+        column.addWidget(self.stack, 1)
+        column.addWidget(self.health)
+        column.addWidget(self.stop_bar)
+
+    def add_page(self, page: Page) -> None:
+        """Register a page; the first one is in front."""
+        self.pages[page.key] = page
+        self.stack.addWidget(page)
+        self.rail.add(page.key, page.icon)
+        self.retranslate()
+        if len(self.pages) == 1:
+            self.show_page(page.key)
+
+    def show_page(self, key: str) -> None:
+        """Bring it to the front; a key that nobody registered is left alone."""
+        page = self.pages.get(key)
+        if page is None:
+            return
+        if page is not self.stack.currentWidget() and self._notice_kind in ("good", "info"):
+            # Good news is read once; what went wrong stays until it is closed.
+            self._close_notice()
+        self.stack.setCurrentWidget(page)
+        self.rail.set_current(key)
+        page.setFocus()
+        page.entered()
+
+    def current_page(self) -> str:
+        """The key of the page in front."""
+        page = self.stack.currentWidget()
+        return page.key if isinstance(page, Page) else ""
+
+    def retranslate(self) -> None:
+        """Set the window's own texts."""
+        self.setWindowTitle(self.tr("AHRS Lab: calibration to JJF 1536-2015"))
+        for key, page in self.pages.items():
+            self.rail.buttons[key].setText(page.title())
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def _close_notice(self) -> None:
+        self._notice_kind = ""
+        self.notice.setVisible(False)
+        self._notice_room.setVisible(False)
+
+    def _show_notice(self, kind: str, what: Message | str) -> None:
+        self._notice_kind = kind
+        self.notice.set_content(kind, "", said(what))  # type: ignore[arg-type]
+        self.notice.setVisible(True)
+        self._notice_room.setVisible(True)
+
+    def _mark_run(self) -> None:
+        if "run" in self.rail.buttons:
+            self.rail.buttons["run"].set_marked(self.workspace.run.live)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """While a run is going on: ask, then bring the bench to a safe state before the window goes."""
+        if self.workspace.run.live and not self._stop_to_close():
+            event.ignore()
+            return
+        self.workspace.run.close(0.0)
+        super().closeEvent(event)
+
+    def _stop_to_close(self) -> bool:
+        box = QMessageBox(self)
+        box.setIcon(QMessageBox.Icon.Warning)
+        box.setWindowTitle(self.tr("A run is going on"))
+        box.setText(self.tr("A run is going on."))
+        box.setInformativeText(
+            self.tr(
+                "Closing stops the table and switches the supply off. What is recorded is kept, "
+                "and the run can be resumed later."
+            )
+        )
+        stop = box.addButton(self.tr("Stop the bench and close"), QMessageBox.ButtonRole.DestructiveRole)
+        stay = box.addButton(self.tr("Go on with the run"), QMessageBox.ButtonRole.RejectRole)
+        box.setDefaultButton(stay)
+        box.exec()
+        if box.clickedButton() is not stop:
+            return False
+        if self.workspace.run.close():
+            return True
+        self._show_notice(
+            "bad",
+            self.tr(
+                "The bench has not come to rest yet. Use the hardware emergency stop if the "
+                "table still turns."
+            ),
+        )
+        return False
+
+
+def _icon() -> QIcon:
+    picture = QPixmap(64, 64)
+    picture.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(picture)
+    paint_emblem(painter, QRectF(2, 2, 60, 60))
+    painter.end()
+    return QIcon(picture)

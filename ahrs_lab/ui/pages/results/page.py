@@ -1,0 +1,314 @@
+"""The page Results: verdict, the three cards, and below what stands behind the chosen number."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QHBoxLayout, QMenu, QStackedWidget, QVBoxLayout, QWidget
+
+from ahrs_lab.errors import AhrsLabError
+from ahrs_lab.laboratory.evaluation import EvaluationSettings
+from ahrs_lab.metrology.result import CalibrationResult
+from ahrs_lab.recording.samples import Samples
+from ahrs_lab.ui.page import Page
+from ahrs_lab.ui.pages.desk import Desk
+from ahrs_lab.ui.pages.results.budget_view import BudgetView
+from ahrs_lab.ui.pages.results.findings_view import FindingsView
+from ahrs_lab.ui.pages.results.plot_view import PlotView
+from ahrs_lab.ui.pages.results.quantities import GROUPS, Group, Quantity, quantities
+from ahrs_lab.ui.pages.results.value_card import ValueCard
+from ahrs_lab.ui.pages.results.values_view import ValuesView
+from ahrs_lab.ui.pages.widgets.tabs import Tabs
+from ahrs_lab.ui.theme import CARD_MARGIN, GAP
+from ahrs_lab.ui.widgets import Banner, Card, EmptyState, Label, ProgressBar, QuietButton
+
+
+class ResultsPage(Page):
+    """The open job's current result."""
+
+    key = "results"
+    icon = "results"
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk.workspace)
+        self._desk = desk
+        self._result: CalibrationResult | None = None
+        self._quantities: dict[str, Quantity] = {}
+        self._chosen = ""
+        self._stack = QStackedWidget()
+        self.outer.addWidget(self._stack)
+        self._empty = EmptyState("results")
+        self._empty.pressed.connect(self._leave_empty)
+        self._stack.addWidget(self._empty)
+        self._stack.addWidget(self._make_waiting())
+        self._stack.addWidget(self._make_content())
+        desk.evaluating.connect(self._evaluating)
+        desk.jobs_changed.connect(self.refresh)
+        desk.actor_changed.connect(self._permit)
+        self.retranslate()
+
+    # layout ---------------------------------------------------------------------------------------------
+
+    def _make_waiting(self) -> QWidget:
+        whole = QWidget()
+        column = QVBoxLayout(whole)
+        column.addStretch(1)
+        self._waiting_text = Label(role="title")
+        self._waiting_bar = ProgressBar()
+        self._waiting_bar.set_value(None)
+        self._waiting_bar.setFixedWidth(420)
+        row = QVBoxLayout()
+        row.setSpacing(GAP)
+        row.addWidget(self._waiting_text)
+        row.addWidget(self._waiting_bar)
+        centre = QHBoxLayout()
+        centre.addStretch(1)
+        centre.addLayout(row)
+        centre.addStretch(1)
+        column.addLayout(centre)
+        column.addStretch(2)
+        return whole
+
+    def _make_content(self) -> QWidget:
+        whole = QWidget()
+        column = QVBoxLayout(whole)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(CARD_MARGIN)
+        self.verdict = Banner("info", large=True)
+        self.verdict.pressed.connect(lambda: self.workspace.go_to("certificate"))
+        column.addWidget(self.verdict)
+        cards = QHBoxLayout()
+        cards.setSpacing(CARD_MARGIN)
+        self.cards: dict[Group, ValueCard] = {group: ValueCard(group) for group in GROUPS}
+        for card in self.cards.values():
+            card.chosen.connect(self.choose)
+            card.unit_changed.connect(self._show_details)
+            cards.addWidget(card, 1)
+        column.addLayout(cards)
+        column.addWidget(self._make_details(), 1)
+        return whole
+
+    def _make_details(self) -> Card:
+        card = Card()
+        head = QHBoxLayout()
+        head.setSpacing(GAP)
+        self.tabs = Tabs()
+        self._busy = ProgressBar()
+        self._busy.setFixedWidth(120)
+        self._busy.setVisible(False)
+        self.again = QuietButton(icon="repeat")
+        self.again.setMenu(self._recalculation_menu())
+        head.addWidget(self.tabs)
+        head.addStretch(1)
+        head.addWidget(self._busy)
+        head.addWidget(self.again)
+        card.add(head)
+        self.plot, self.values = PlotView(), ValuesView()
+        self.budget, self.findings = BudgetView(), FindingsView()
+        self._views = QStackedWidget()
+        for view in (self.plot, self.values, self.budget, self.findings):
+            self._views.addWidget(view)
+        self.plot.segment_wanted.connect(self._open_segment)
+        self.tabs.currentChanged.connect(self._views.setCurrentIndex)
+        card.add(self._views, 1)
+        return card
+
+    def _recalculation_menu(self) -> QMenu:
+        menu = QMenu(self)
+        self._ways = {
+            EvaluationSettings(rates, method): menu.addAction("")
+            for method in ("gum", "annex-a")
+            for rates in ("demanded", "table")
+        }
+        for settings, action in self._ways.items():
+            action.triggered.connect(lambda _on=False, settings=settings: self._recalculate(settings))
+        return menu
+
+    # content --------------------------------------------------------------------------------------------
+
+    def title(self) -> str:
+        return self.tr("Results")
+
+    def entered(self) -> None:
+        self.refresh()
+
+    def job_changed(self) -> None:
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Look at the open job's result again."""
+        number = self._desk.number
+        try:
+            result = self._desk.laboratory.result(number) if number else None
+        except AhrsLabError as error:
+            self._desk.tell(error)
+            result = None
+        if result is not None and result == self._result:
+            self._permit()
+            return
+        self.show_result(result)
+
+    def show_result(self, result: CalibrationResult | None) -> None:
+        """Everything of the page from one result; None: there is none yet."""
+        self._result = result
+        if self._stack.currentIndex() != 1:
+            self._stack.setCurrentIndex(2 if result is not None else 0)
+        if result is None:
+            self._quantities = {}
+            self._name_empty()
+            return
+        found = quantities(result)
+        self._quantities = {quantity.key: quantity for quantity in found}
+        for group, card in self.cards.items():
+            card.set_quantities([quantity for quantity in found if quantity.group == group])
+        self.values.show_result(result)
+        self.findings.show_result(result)
+        self._say_verdict()
+        self._permit()
+        if self._chosen not in self._quantities:
+            self._chosen = found[0].key if found else ""
+        self.choose(self._chosen)
+
+    def choose(self, key: str) -> None:
+        """Show plot and budget of this quantity."""
+        self._chosen = key
+        for card in self.cards.values():
+            card.mark(key)
+        self._show_details()
+
+    def _show_details(self) -> None:
+        quantity = self._quantities.get(self._chosen)
+        if quantity is None or self._result is None:
+            return
+        unit = self.cards[quantity.group].unit()
+        if unit is None:
+            return
+        self.plot.show_quantity(quantity, unit, self._result)
+        self.budget.show_quantity(quantity, unit)
+
+    def _say_verdict(self) -> None:
+        result = self._result
+        if result is None:
+            return
+        method = next((q.uncertainty.method for q in self._quantities.values()), "gum")
+        parts = [
+            self.tr("Values: {count}").format(count=len(self._quantities)),
+            self.tr("uncertainty by annex A") if method == "annex-a" else self.tr("uncertainty by the GUM"),
+            self.tr("deviations from the standard: {count}").format(count=len(result.deviations)),
+            self.tr("warnings: {count}").format(count=len(result.warnings)),
+        ]
+        if result.simulated:
+            parts.append(self.tr("measured on a simulated bench"))
+        self.verdict.set_content(
+            "warn" if result.warnings else "info",
+            self.tr("Measured; no limits are set"),
+            "  ·  ".join(parts),
+            self.tr("Certificate preview"),
+        )
+
+    def _permit(self) -> None:
+        number = self._desk.number
+        if not number or self._result is None:
+            return
+        self.again.setVisible(
+            self._desk.laboratory.job(number).state == "measured"
+            and not self._desk.laboratory.signatures(number)
+        )
+
+    # actions --------------------------------------------------------------------------------------------
+
+    def _evaluating(self, on: bool) -> None:
+        if on:
+            self._stack.setCurrentIndex(1)
+        else:
+            self._stack.setCurrentIndex(2 if self._result is not None else 0)
+
+    def _recalculate(self, settings: EvaluationSettings) -> None:
+        actor = self._desk.ask_actor(self)
+        number = self._desk.number
+        if actor is None or not number:
+            return
+        self._set_busy(True)
+        self._desk.run(
+            self,
+            lambda: self._desk.laboratory.recalculate(number, settings, actor),
+            self._recalculated,
+            self._refused,
+        )
+
+    def _recalculated(self, result: CalibrationResult) -> None:
+        self._set_busy(False)
+        self.show_result(result)
+        self._desk.changed()
+
+    def _refused(self, error: AhrsLabError) -> None:
+        self._set_busy(False)
+        self._desk.tell(error)
+
+    def _set_busy(self, busy: bool) -> None:
+        self._busy.set_value(None if busy else 0.0)
+        self._busy.setVisible(busy)
+        self.again.setEnabled(not busy)
+
+    def _open_segment(self, name: str) -> None:
+        number = self._desk.number
+        self._set_busy(True)
+
+        def opened(samples: Samples) -> None:
+            self._set_busy(False)
+            self.plot.show_segment(name, samples)
+
+        self._desk.run(
+            self,
+            lambda: self._desk.laboratory.segment_samples(number, name),
+            opened,
+            self._refused,
+            topic="segment",
+        )
+
+    def _leave_empty(self) -> None:
+        self.workspace.go_to("jobs")
+
+    # words ----------------------------------------------------------------------------------------------
+
+    def _name_empty(self) -> None:
+        if self._desk.number:
+            self._empty.set_content(
+                self.tr("Not measured yet"),
+                self.tr(
+                    "Scale factors, zero offsets and misalignments of this job will be here, "
+                    "each with its uncertainty and its plot."
+                ),
+                self.tr("Prepare and start"),
+            )
+        else:
+            self._empty.set_content(
+                self.tr("No job is open"),
+                self.tr("Open a job to see its scale factors, zero offsets and misalignments."),
+                self.tr("Choose a job"),
+            )
+
+    def retranslate(self) -> None:
+        self._waiting_text.setText(self.tr("Evaluating the recording"))
+        self._name_empty()
+        titles = {
+            "scale_factor": self.tr("Scale factor"),
+            "zero_offset": self.tr("Zero offset"),
+            "misalignment": self.tr("Misalignment"),
+        }
+        for group, card in self.cards.items():
+            card.set_words(titles[group], self.tr("Not part of this calibration."))
+        self.tabs.set_texts(
+            self.tr("Plot"),
+            self.tr("Values"),
+            self.tr("Uncertainty budget"),
+            self.tr("Warnings and deviations"),
+        )
+        self.again.setText(self.tr("Calculate again"))
+        methods = {"gum": self.tr("GUM"), "annex-a": self.tr("annex A")}
+        rates = {"demanded": self.tr("demanded rates"), "table": self.tr("rates of the table")}
+        for settings, action in self._ways.items():
+            action.setText(f"{methods[settings.uncertainty]}, {rates[settings.rates]}")
+        if self._result is not None:
+            self.values.show_result(self._result)
+            self.findings.show_result(self._result)
+            self._say_verdict()
+            self._show_details()

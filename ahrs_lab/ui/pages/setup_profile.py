@@ -1,0 +1,75 @@
+"""The laboratory as its certificates name it."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
+
+from ahrs_lab.errors import AhrsLabError
+from ahrs_lab.records.rows import LaboratoryRow
+from ahrs_lab.ui.page import Translated
+from ahrs_lab.ui.pages.desk import Desk
+from ahrs_lab.ui.pages.widgets.form import TextField, grid
+from ahrs_lab.ui.theme import CARD_MARGIN
+from ahrs_lab.ui.widgets import Label, PrimaryButton
+
+
+class ProfilePanel(Translated):
+    """Saved by an administrator."""
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__()
+        self._desk = desk
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, CARD_MARGIN, 0, 0)
+        column.setSpacing(CARD_MARGIN)
+        self._hint = Label(tone="muted", wrap=True)
+        self.name, self.name_en = TextField(), TextField()
+        self.address, self.address_en = TextField(), TextField()
+        self.save_button = PrimaryButton()
+        self.save_button.clicked.connect(self.save)
+        column.addWidget(self._hint)
+        column.addLayout(grid((self.name, self.name_en), (self.address, self.address_en)))
+        row = QHBoxLayout()
+        row.addWidget(self.save_button)
+        row.addStretch(1)
+        column.addLayout(row)
+        column.addStretch(1)
+        for field in (self.name, self.name_en, self.address, self.address_en):
+            field.edited.connect(lambda: self.save_button.setEnabled(True))
+        self.refresh()
+        self.retranslate()
+
+    def refresh(self) -> None:
+        """As the records have it."""
+        row = self._desk.laboratory.profile()
+        self.name.set_text(row.name)
+        self.name_en.set_text(row.name_en)
+        self.address.set_text(row.address)
+        self.address_en.set_text(row.address_en)
+        self.save_button.setEnabled(False)
+
+    def save(self) -> None:
+        """Into the records."""
+        actor = self._desk.ask_actor(self)
+        if actor is None:
+            return
+        row = LaboratoryRow(
+            self.name.text(), self.name_en.text(), self.address.text(), self.address_en.text()
+        )
+        try:
+            self._desk.laboratory.set_profile(row, actor)
+        except AhrsLabError as error:
+            self._desk.tell(error)
+            return
+        self.refresh()
+        self._desk.workspace.notice("good", self.tr("Saved."))
+
+    def retranslate(self) -> None:
+        self._hint.setText(
+            self.tr("Name and address stand on every certificate. An administrator changes them.")
+        )
+        self.name.set_name(self.tr("Name of the laboratory"))
+        self.name_en.set_name(self.tr("Name in English"))
+        self.address.set_name(self.tr("Address"))
+        self.address_en.set_name(self.tr("Address in English"))
+        self.save_button.setText(self.tr("Save"))

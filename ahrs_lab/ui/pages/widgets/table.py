@@ -1,0 +1,201 @@
+"""Tables of texts: columns measured from what is in them, numbers right, one column takes what is left."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
+from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
+
+from ahrs_lab.ui.theme import font, tokens
+
+_Index = QModelIndex | QPersistentModelIndex
+_ROW_PX = 32
+_COMPACT_PX = 27
+_PADDING_PX = 26
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A text with its tone (a colour name of the theme) and weight; ``sort`` orders better than the text."""
+
+    text: str
+    tone: str = "text"
+    strong: bool = False
+    sort: str | float | None = None
+
+
+@dataclass(frozen=True)
+class Column:
+    """A heading; ``right`` for numbers, ``stretch`` takes what is left."""
+
+    heading: str
+    right: bool = False
+    stretch: bool = False
+
+
+class _Model(QAbstractTableModel):
+    def __init__(self) -> None:
+        super().__init__()
+        self.columns: tuple[Column, ...] = ()
+        self.rows: list[tuple[Cell, ...]] = []
+        self.keys: list[str] = []
+
+    def rowCount(self, parent: _Index | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else len(self.rows)
+
+    def columnCount(self, parent: _Index | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else len(self.columns)
+
+    def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
+        cell = self.rows[index.row()][index.column()]
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole):
+            return cell.text
+        if role == Qt.ItemDataRole.ForegroundRole:
+            return QColor(getattr(tokens(), cell.tone))
+        if role == Qt.ItemDataRole.FontRole:
+            return font("strong") if cell.strong else None
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            side = (
+                Qt.AlignmentFlag.AlignRight
+                if self.columns[index.column()].right
+                else Qt.AlignmentFlag.AlignLeft
+            )
+            return side | Qt.AlignmentFlag.AlignVCenter
+        return None
+
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> object:
+        if orientation != Qt.Orientation.Horizontal or section >= len(self.columns):
+            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return self.columns[section].heading
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            side = Qt.AlignmentFlag.AlignRight if self.columns[section].right else Qt.AlignmentFlag.AlignLeft
+            return side | Qt.AlignmentFlag.AlignVCenter
+        return None
+
+    def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
+        self.layoutAboutToBeChanged.emit()
+        pairs = list(zip(self.rows, self.keys, strict=True))
+        pairs.sort(key=lambda pair: _sort_key(pair[0][column]), reverse=order == Qt.SortOrder.DescendingOrder)
+        self.rows = [row for row, _ in pairs]
+        self.keys = [key for _, key in pairs]
+        self.layoutChanged.emit()
+
+    def replace(self, columns: tuple[Column, ...], rows: list[tuple[Cell, ...]], keys: list[str]) -> None:
+        self.beginResetModel()
+        self.columns, self.rows, self.keys = columns, rows, keys
+        self.endResetModel()
+
+
+def _sort_key(cell: Cell) -> tuple[int, float, str]:
+    if isinstance(cell.sort, (int, float)):
+        return (0, float(cell.sort), "")
+    return (1, 0.0, cell.sort if cell.sort is not None else cell.text)
+
+
+class TextTable(QTableView):
+    """Rows have keys. ``opened`` tells the key by double click or Enter, ``chosen`` by moving."""
+
+    opened = Signal(str)
+    chosen = Signal(str)
+
+    def __init__(self, *, selectable: bool = True, sortable: bool = False, compact: bool = False) -> None:
+        super().__init__()
+        self._model = _Model()
+        self._model.setParent(self)
+        self._selectable = selectable
+        self._sortable = sortable
+        self.setModel(self._model)
+        self.setShowGrid(False)
+        self.setWordWrap(False)
+        self.verticalHeader().setVisible(False)
+        self.verticalHeader().setDefaultSectionSize(_COMPACT_PX if compact else _ROW_PX)
+        self.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
+        self.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(
+            QAbstractItemView.SelectionMode.SingleSelection
+            if selectable
+            else QAbstractItemView.SelectionMode.NoSelection
+        )
+        self.setTabKeyNavigation(False)
+        if not selectable:
+            self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        header = self.horizontalHeader()
+        header.setHighlightSections(False)
+        # A cell's text stands three pixels further in than the style sheet's padding; so does its heading.
+        header.setStyleSheet("QHeaderView::section { padding: 6px 11px; }")
+        header.setSectionsClickable(sortable)
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        self.doubleClicked.connect(lambda index: self.opened.emit(self._model.keys[index.row()]))
+        self.selectionModel().currentRowChanged.connect(self._moved)
+
+    def set_content(
+        self, columns: Sequence[Column], rows: Sequence[Sequence[Cell]], keys: Sequence[str] = ()
+    ) -> None:
+        """Replace all; the chosen row stays chosen where its key is still there."""
+        kept = self.current_key()
+        self._model.replace(
+            tuple(columns), [tuple(row) for row in rows], list(keys) or [str(i) for i in range(len(rows))]
+        )
+        self._measure()
+        self.setSortingEnabled(False)
+        if self._sortable:
+            header = self.horizontalHeader()
+            header.setSortIndicatorShown(True)
+            header.setSectionsClickable(True)
+        if kept:
+            self.choose(kept)
+
+    def sort_by(self, column: int, order: Qt.SortOrder) -> None:
+        """Order the rows now and let the person order them otherwise."""
+        self.horizontalHeader().setSortIndicator(column, order)
+        self.setSortingEnabled(True)
+
+    def current_key(self) -> str:
+        """Of the chosen row, "" where none is."""
+        row = self.currentIndex().row()
+        return self._model.keys[row] if 0 <= row < len(self._model.keys) else ""
+
+    def choose(self, key: str) -> None:
+        """Choose a row by its key."""
+        if key in self._model.keys:
+            self.selectRow(self._model.keys.index(key))
+
+    def keys(self) -> list[str]:
+        """In the order shown."""
+        return list(self._model.keys)
+
+    def texts(self, row: int) -> list[str]:
+        """The texts of a row as they stand there."""
+        return [cell.text for cell in self._model.rows[row]]
+
+    def _measure(self) -> None:
+        header = self.horizontalHeader()
+        plain, strong = self.fontMetrics(), QFontMetrics(font("strong"))
+        for number, column in enumerate(self._model.columns):
+            if column.stretch:
+                header.setSectionResizeMode(number, QHeaderView.ResizeMode.Stretch)
+                continue
+            widths = [plain.horizontalAdvance(column.heading)]
+            for row in self._model.rows:
+                cell = row[number]
+                widths.append((strong if cell.strong else plain).horizontalAdvance(cell.text))
+            header.setSectionResizeMode(number, QHeaderView.ResizeMode.Interactive)
+            self.setColumnWidth(number, max(widths) + _PADDING_PX + (12 if self._sortable else 0))
+
+    def _moved(self, current: QModelIndex, _previous: QModelIndex) -> None:
+        if current.isValid():
+            self.chosen.emit(self._model.keys[current.row()])
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.current_key():
+            self.opened.emit(self.current_key())
+            return
+        super().keyPressEvent(event)

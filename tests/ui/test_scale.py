@@ -1,0 +1,44 @@
+"""The value axis goes in steps: grows at once, shrinks late, and always holds the data."""
+
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ahrs_lab.ui.plots.scale import SteppedRange, nice_range, nice_step
+
+values = st.floats(-1e4, 1e4, allow_nan=False)
+
+
+def test_steps_are_one_two_five() -> None:
+    assert [nice_step(span) for span in (4.0, 4.1, 8.1, 20.1, 0.04)] == [1.0, 2.0, 5.0, 10.0, 0.01]
+
+
+@given(values, values)
+def test_range_holds_the_data_and_is_at_most_a_few_steps_wider(a: float, b: float) -> None:
+    low, high = min(a, b), max(a, b)
+    bottom, top = nice_range(low, high, 0.02)
+    slack = 1e-6 * max(1.0, abs(low), abs(high))
+    assert bottom <= low + slack
+    assert top >= high - slack
+    step = nice_step(max(high - low, 0.02))
+    assert top - bottom <= max(high - low, 0.02) + 2 * step + slack
+
+
+@given(st.lists(st.tuples(values, values), min_size=1, max_size=60))
+def test_shown_range_always_holds_the_data(looks: list[tuple[float, float]]) -> None:
+    shown = SteppedRange(0.02)
+    for a, b in looks:
+        shown.follow(min(a, b), max(a, b))
+        slack = 1e-6 * max(1.0, abs(a), abs(b))
+        assert shown.low <= min(a, b) + slack
+        assert shown.high >= max(a, b) - slack
+
+
+def test_range_shrinks_only_after_a_while() -> None:
+    shown = SteppedRange(0.02)
+    shown.follow(-100.0, 100.0)
+    changes = [shown.follow(-1.0, 1.0) for _ in range(100)]
+    assert changes.count(True) == 1
+    assert changes.index(True) > 20
+    assert (shown.low, shown.high) == (-1.0, 1.0)

@@ -36,6 +36,11 @@ class InstrumentError(AhrsLabError):
     """An instrument does not do what it was asked."""
 
 
+class LinkLostError(InstrumentError):
+    """The wire to an instrument is gone: unplugged, switched off, or closed by the other side. Opening it
+    again may help."""
+
+
 class MountingError(InstrumentError):
     """The case is not mounted as asked (the recording was refused)."""
 

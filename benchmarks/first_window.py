@@ -2,7 +2,8 @@
 
     python benchmarks/first_window.py [--repeat 5]
 
-Each start is a process of its own on the offscreen platform: the very first one (the laboratory is made) and later
+Each start is a process of its own on the offscreen platform: the very first one (the laboratory is made) and
+later
 ones. The clock starts before the process and stops when the event loop has drawn the window.
 """
 

@@ -130,4 +130,4 @@ def test_the_job_can_be_exported_and_taken_in_elsewhere(
         assert laboratory.job(taken).state == "measured"
     first = json.loads((out / "result.json").read_text(encoding="utf-8"))
     assert result is not None
-    assert result.scale_factor["x"].K == first["scale_factor"]["x"]["K"]
+    assert first["scale_factor"]["x"]["K"] == result.scale_factor["x"].K

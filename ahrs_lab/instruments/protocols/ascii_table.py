@@ -62,7 +62,7 @@ class AsciiTiming:
     """``pause_s`` between two commands, ``keep_alive_s`` between two ``keep_alive`` texts."""
 
     pause_s: float = 0.1
-    reply_timeout_s: float = 0.8
+    reply_timeout_s: float = 0.4
     keep_alive_s: float = 10.0
 
     def __post_init__(self) -> None:

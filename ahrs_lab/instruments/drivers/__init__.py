@@ -1,0 +1,1 @@
+"""Drivers: instruments behind the small interfaces, each over a link and a codec."""

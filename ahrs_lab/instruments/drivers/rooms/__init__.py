@@ -1,0 +1,1 @@
+"""Thermometers and hygrometers of the room."""

@@ -4,7 +4,7 @@
 
 Each start is a process of its own on the offscreen platform: the very first one (the laboratory is made) and
 later
-ones. The clock starts before the process and stops when the event loop has drawn the window.
+later ones. The clock starts before the process and stops when the event loop has drawn the window.
 """
 
 from __future__ import annotations

@@ -129,7 +129,8 @@ class Authority:
         key = ec.generate_private_key(ec.SECP256R1())
         root = _root_certificate(key, moment)
         with _writing(self.folder):
-            (self.folder / _PEOPLE).mkdir(parents=True, exist_ok=True)
+            self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            (self.folder / _PEOPLE).mkdir(exist_ok=True, mode=0o700)
             encryption = BestAvailableEncryption(self._passphrase().encode())
             _write_private(
                 self.folder / _ROOT_KEY_FILE, key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, encryption)

@@ -82,10 +82,12 @@ def _positions(result: ZeroOffsetResult, *, harmonic: bool) -> Series:
     x = result.azimuths_deg if over_azimuth else tuple(float(i) for i in range(1, len(rates) + 1))
     curve: tuple[tuple[float, float], ...] = ()
     check = result.earth_rate_check
-    if over_azimuth and check and "amplitude_dps" in check:
-        amplitude, phase = check["amplitude_dps"] * PER_HOUR, math.radians(check.get("phase_deg", 0.0))
+    if over_azimuth and check and "amplitude_dps" in check and "heading_at_zero_deg" in check:
+        amplitude = check["amplitude_dps"] * PER_HOUR
+        # the axis points to north where the table stands here
+        north = math.radians(check["heading_at_zero_deg"] - check.get("phase_deg", 0.0))
         angles = [min(x) + (max(x) - min(x)) * i / (_CURVE_POINTS - 1) for i in range(_CURVE_POINTS)]
-        curve = tuple((a, amplitude * math.cos(math.radians(a) - phase)) for a in angles)
+        curve = tuple((a, amplitude * math.cos(math.radians(a) - north)) for a in angles)
     return Series(axis=result.axis, x=x, y=rates, curve=curve, title=symbol("B", result.axis))
 
 

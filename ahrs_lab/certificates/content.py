@@ -47,7 +47,7 @@ from ahrs_lab.certificates.result_tables import (
 from ahrs_lab.certificates.richtext import RichText, Run, joined, markup, plain, symbol
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
-from ahrs_lab.metrology.conditions import Standard
+from ahrs_lab.metrology.conditions import Standard, clause6_violations
 from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, CalibrationResult, Environment, Uncertainty
 from ahrs_lab.metrology.rounding import format_grouped
 from ahrs_lab.resource_files import resource_path
@@ -205,13 +205,21 @@ def environment_text(environment: Environment | None, language: CertificateLangu
     """Mean ± half the spread over the run; the spread is rounded up."""
     if environment is None:
         return label(wording.NOT_RECORDED, language)
-    spread = math.ceil(environment.temperature_spread_c * 10 - 1e-9) / 10
-    humid = math.ceil(environment.humidity_spread_percent - 1e-9)
+    spread = _spread(environment.temperature_c, environment.temperature_spread_c, 1)
+    humid = _spread(environment.humidity_percent, environment.humidity_spread_percent, 0)
     words = wording.ENVIRONMENT_VALUE.filled(
-        temperature=f"{format_grouped(f'{environment.temperature_c:.1f}')} ± {spread:.1f}",
+        temperature=f"{format_grouped(f'{environment.temperature_c:.1f}')} ± {spread}",
         humidity=f"{environment.humidity_percent:.0f} ± {humid}",
     )
     return label(words, language)
+
+
+def _spread(mean: float, half: float, decimals: int) -> str:
+    """The spread about the mean as printed that holds all that was measured."""
+    printed = float(f"{mean:.{decimals}f}")
+    beyond = max(mean + half - printed, printed - (mean - half))
+    step = 10**decimals
+    return f"{math.ceil(beyond * step - 1e-6) / step:.{decimals}f}"
 
 
 def person_label(person: Person, language: CertificateLanguage) -> tuple[Label, Label]:
@@ -296,13 +304,16 @@ def _methods(
     result: CalibrationResult, job: JobSheet, mismatches: tuple[Message, ...], language: CertificateLanguage
 ) -> tuple[Block, ...]:
     blocks: list[Block] = [Heading(label(wording.UNCERTAINTY, language))]
-    blocks += [Paragraph(label(words, language), together=True) for words in _uncertainty_statement(result)]
+    blocks += [
+        Paragraph(label(words, language), together=True) for words in _uncertainty_statement(result, job)
+    ]
     blocks += [
         Heading(label(wording.CONDITIONS, language)),
         Fields(conditions_fields(result, language), ruled=False),
     ]
     blocks.append(Heading(label(wording.DEVIATIONS, language)))
     deviations = [_message(message, language) for message in result.deviations]
+    deviations += [_message(message, language) for message in _violations(result, job)]
     deviations += [same(text) for text in job.accepted_violations]
     blocks += [Paragraph(text, together=True) for text in deviations] or [
         Paragraph(label(wording.NO_DEVIATIONS, language), together=True)
@@ -311,6 +322,8 @@ def _methods(
         Heading(label(wording.USE, language)),
         Paragraph(_with_mark(label(wording.USE_TEXT, language), "4"), together=True),
     ]
+    if result.device.get("rate_unit") != "LSB":  # counts are scaled by K before B and L are formed
+        blocks.append(Paragraph(label(wording.USE_AS_DELIVERED, language), together=True))
     remarks = [_message(message, language) for message in mismatches]
     remarks += [same(note) for note in job.notes]
     remarks += _warnings(result, language)
@@ -318,6 +331,23 @@ def _methods(
         blocks.append(Heading(label(wording.REMARKS, language)))
         blocks += [Paragraph(text, together=True) for text in remarks]
     return tuple(blocks)
+
+
+def _violations(result: CalibrationResult, job: JobSheet) -> tuple[Message, ...]:
+    """What violates clause 6 and was not accepted (that stands with its reason); the room as measured."""
+    found = clause6_violations(
+        job.standards,
+        on_date=job.calibrated,
+        environment=result.environment,
+        capability=job.capability,
+    )
+    return tuple(
+        message
+        for message in found
+        if not any(
+            text.startswith((message.text("en"), message.text("zh"))) for text in job.accepted_violations
+        )
+    )
 
 
 def _with_mark(text: Label, mark: str) -> Label:
@@ -328,18 +358,38 @@ def _message(message: Message, language: CertificateLanguage) -> Label:
     return both(message.text("zh"), message.text("en"), language)
 
 
-def _uncertainty_statement(result: CalibrationResult) -> tuple[Words, ...]:
-    """Clause 8 j): method, k, probability, and what U of B covers."""
+def _uncertainty_statement(result: CalibrationResult, job: JobSheet) -> tuple[Words, ...]:
+    """Clause 8 j): method, k, probability, what U of B covers, traceability."""
     statements: list[Words] = []
     methods = methods_of(result)
     if "gum" in methods:
         statements.append(_noted(wording.BY_GUM, 5))
     if "annex-a" in methods:
         statements.append(_noted(wording.BY_ANNEX_A, 6 if "gum" in methods else 5))
+    if job.rounding == "up":
+        statements.append(wording.ROUNDED_UP)
     if result.zero_offset:
-        beside = any(one.repeatability_dps is not None for one in result.zero_offset.values())
-        statements.append(wording.MEANING_OF_B if beside else wording.MEANING_OF_B_ALONE)
-    return (*statements, wording.TRACEABILITY)
+        statements.append(wording.MEANING_OF_B)
+        known = [one for one in result.zero_offset.values() if one.repeatability_dps is not None]
+        if any(not one.repeatability_cycles for one in known):
+            statements.append(wording.REPEATABILITY_BY_ALLAN)
+        statements += [
+            wording.REPEATABILITY_BY_CYCLES.filled(count=count)
+            for count in sorted({one.repeatability_cycles for one in known} - {0})
+        ]
+    return (*statements, *_traceability(result, job))
+
+
+def _traceability(result: CalibrationResult, job: JobSheet) -> tuple[Words, ...]:
+    """Only what the standards used bear out."""
+    if is_demonstration(result, job):
+        return (wording.DEMONSTRATION_NOT_TRACEABLE,)
+    if clause6_violations(job.standards, on_date=job.calibrated):
+        return (wording.NOT_TRACEABLE,)
+    bodies = list(dict.fromkeys(one.traceability for one in job.standards if one.traceability))
+    if not bodies:
+        return (wording.TRACEABILITY,)
+    return (wording.TRACEABILITY, wording.TRACED_BY.filled(bodies=", ".join(bodies)))
 
 
 def _noted(words: Words, mark: int) -> Words:
@@ -383,8 +433,18 @@ def conditions_fields(result: CalibrationResult, language: CertificateLanguage) 
             wording.RATE_SOURCE,
             label(wording.RATE_TABLE if "table" in sources else wording.RATE_DEMANDED, language),
         )
-    for schedule in sorted({one.schedule for one in result.zero_offset.values()}):
-        add(wording.ZERO_OFFSET_SCHEDULE, label(wording.SCHEDULES[schedule], language))
+    schedules: dict[str, list[str]] = {}
+    for axis in (axis for axis in AXES if axis in result.zero_offset):
+        schedules.setdefault(result.zero_offset[axis].schedule, []).append(axis.upper())
+    for schedule, of_axes in schedules.items():
+        words = wording.SCHEDULES[schedule]
+        if len(schedules) > 1:
+            named = ", ".join(of_axes)
+            words = Words(
+                wording.SCHEDULE_OF_AXES.zh.format(axes=named, schedule=words.zh),
+                wording.SCHEDULE_OF_AXES.en.format(axes=named, schedule=words.en),
+            )
+        add(wording.ZERO_OFFSET_SCHEDULE, label(words, language))
     dwells = sorted({one.duration_s for one in result.zero_offset.values()})
     if dwells:
         add(wording.DWELL, same(", ".join(f"{format_grouped(f'{dwell:.10g}')} s" for dwell in dwells)))
@@ -448,7 +508,7 @@ def _budgets(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ..
         (
             wording.SCALE_FACTOR,
             {a: r.uncertainty for a, r in result.scale_factor.items()},
-            {a: joined(symbol("K", a), " / ", million) for a in result.scale_factor},
+            {a: joined("u/", symbol("K", a), " / ", million) for a in result.scale_factor},
             {a: 1e6 / abs(r.K) if r.K else 1e6 for a, r in result.scale_factor.items()},
         ),
         (

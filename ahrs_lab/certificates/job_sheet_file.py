@@ -3,7 +3,6 @@ why."""
 
 from __future__ import annotations
 
-import math
 import tomllib
 from collections.abc import Mapping
 from datetime import date, datetime
@@ -21,6 +20,7 @@ VERSION = 1
 _LARGEST_FILE = 1_000_000
 _LONGEST_TEXT = 500
 _MOST_ENTRIES = 100
+_LARGEST = 1e12
 _KINDS: tuple[StandardKind, ...] = ("table", "supply", "fixture", "room", "north", "other")
 _Choice = TypeVar("_Choice", bound=str)
 
@@ -95,7 +95,7 @@ class _Table:
         return default if value is None else self._checked_number(key, value)
 
     def _checked_number(self, key: str, value: object) -> float:
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < math.inf:
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < _LARGEST:
             raise self.wrong(key, Message("a number, not negative"))
         return float(value)
 
@@ -229,7 +229,7 @@ def _parsed(path: Path) -> dict[str, Any]:
         return tomllib.loads(data.decode("utf-8-sig").replace("\r\n", "\n"))
     except UnicodeDecodeError as error:
         raise InputError("{file} is not UTF-8 text: save it as UTF-8", file=path.name) from error
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # ValueError: also a number of too many digits
         raise InputError("{file} is not valid TOML: {reason}", file=path.name, reason=error) from error
 
 

@@ -47,7 +47,14 @@ def significant(value: float, digits: int = 2) -> str:
     if value == 0 or not math.isfinite(value):
         return "0" if value == 0 else "∞" if value > 0 else DASH
     decimals = digits - 1 - math.floor(math.log10(abs(value)))
-    return format_grouped(f"{round(value, decimals):.{max(decimals, 0)}f}")
+    if abs(float(round_to_place(value, decimals))) >= 10.0 ** (digits - decimals):  # 0.0996 became 0.100
+        decimals -= 1
+    return format_grouped(round_to_place(value, decimals))
+
+
+def _without_noise(product: float) -> float:
+    """Twelve digits: the last bits of a change of unit must not decide a tie or raise a digit."""
+    return float(f"{product:.12g}")
 
 
 def contribution(value: float, combined: float) -> str:
@@ -75,7 +82,9 @@ class ResultWriter:
 
     def pair(self, value: float, uncertainty: Uncertainty, factor: float = 1.0) -> tuple[Label, Label]:
         """Value and U, both times ``factor``, rounded to the same place and grouped."""
-        rounded = round_to_uncertainty(value * factor, uncertainty.expanded * factor, self.rounding)
+        rounded = round_to_uncertainty(
+            _without_noise(value * factor), _without_noise(uncertainty.expanded * factor), self.rounding
+        )
         return same(format_grouped(rounded.value)), same(format_grouped(rounded.expanded))
 
     def quantity(self, words: Words, letter: str, index: str) -> Label:

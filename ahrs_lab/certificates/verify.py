@@ -28,6 +28,7 @@ Modification = Literal["none", "allowed", "forbidden"]
 
 _LARGEST_FILE = 100_000_000
 _MOST_SIGNATURES = 50
+_LONGEST_NAME = 100
 
 
 @dataclass(frozen=True)
@@ -286,8 +287,10 @@ def _signature(embedded: Any, roots: list[Any], *, last: bool) -> SignatureRepor
 
 
 def _signer_name(certificate: Any) -> str:
+    """One short line, whatever the certificate says: a name must not write lines of the report itself."""
     native = certificate.subject.native
-    return str(native.get("common_name") or certificate.subject.human_friendly)
+    name = str(native.get("common_name") or certificate.subject.human_friendly)
+    return "".join(c if c.isprintable() else "�" for c in name[:_LONGEST_NAME])
 
 
 def _judged(embedded: Any, status: Any, signer: str, field: str, *, last: bool) -> SignatureReport:

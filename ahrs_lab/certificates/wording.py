@@ -110,24 +110,35 @@ BY_ANNEX_A = Words(
     "probability is "
     "about 95 %. U has two significant digits, values are rounded to the same place.",
 )
+ROUNDED_UP = Words("U 修约时只入不舍。", "U is rounded up.")
 MEANING_OF_B = Words(
-    "零偏 B 为所述条件下各记录时段输出的平均值，其 U 不包含他日的变化（零偏稳定性、通电重复性）；后者在零"
-    "偏表中以“重复性”"
-    "（标准差）单独给出。",
-    "B is the mean offset over the recorded dwells under the conditions stated. Its U does not cover "
-    "what B may be on "
-    "another day (bias instability, turn-on repeatability); that is given beside it as repeatability "
-    "(one standard "
-    "deviation).",
-)
-MEANING_OF_B_ALONE = Words(
     "零偏 B 为所述条件下各记录时段输出的平均值，其 U 不包含他日的变化（零偏稳定性、通电重复性）。",
     "B is the mean offset over the recorded dwells under the conditions stated. Its U does not cover "
-    "what B may be on "
-    "another day (bias instability, turn-on repeatability).",
+    "what B may be on another day (bias instability, turn-on repeatability).",
+)
+REPEATABILITY_BY_ALLAN = Words(
+    "零偏表中的“重复性”为时长 T 处的 Allan 标准差，只反映零偏稳定性，不含通电重复性。",
+    "The repeatability beside B is the Allan deviation at the dwell T: it shows the bias instability, not "
+    "the turn-on repeatability.",
+)
+REPEATABILITY_BY_CYCLES = Words(
+    "零偏表中的“重复性”为 {count} 次断电重复测量所得 B 的单次实验标准差。",
+    "The repeatability beside B is the experimental standard deviation of a single B, from {count} "
+    "measurements with power off between them.",
 )
 TRACEABILITY = Words(
-    "测量结果通过上列测量标准溯源。", "Results are traceable through the measurement standards listed above."
+    "测量结果通过上列测量标准溯源；不确定度汇总中标 * 的分量为假定值，无证书支持。",
+    "Results are traceable through the measurement standards listed above; contributions marked * in the "
+    "uncertainty summary are assumed and not supported by a certificate.",
+)
+TRACED_BY = Words("测量标准的溯源机构：{bodies}。", "The standards are traced through {bodies}.")
+NOT_TRACEABLE = Words(
+    "测量结果的溯源性未得到证明：所用测量标准不全、缺少证书编号或已超过有效期。",
+    "Traceability of the results is not shown: a measurement standard is missing, has no certificate number "
+    "or due date, or is overdue.",
+)
+DEMONSTRATION_NOT_TRACEABLE = Words(
+    "本文件为演示，测量结果不具有溯源性。", "This is a demonstration: its results are not traceable."
 )
 
 # Conditions of the calibration
@@ -137,6 +148,7 @@ RATE_SOURCE = Words("速率取值", "Rate used")
 RATE_DEMANDED = Words("转台指令速率", "demanded rate of the table")
 RATE_TABLE = Words("转台实测转角除以时间", "angle turned by the table over time")
 ZERO_OFFSET_SCHEDULE = Words("零偏方法", "Schedule")
+SCHEDULE_OF_AXES = Words("{axes} 轴：{schedule}", "{axes}: {schedule}")
 SCHEDULES = {
     "standard": Words(
         "四位置法，标准程序（每轴四个位置）", "four positions, standard schedule (four positions per axis)"
@@ -170,6 +182,12 @@ USE_TEXT = Words(
     "The unit is modelled as N = M A + B T with M = I + L (L has a zero diagonal); to compensate, A = "
     "M^{−1} (N − B T), "
     "where N are the output angles scaled to degrees by the scale factor, A the input angles and T the time.",
+)
+USE_AS_DELIVERED = Words(
+    "B、L 由未除以标度因数的输出角得出；N 除以标度因数后，B 及 L 中该输出轴的一行也应除以该轴的标度因数"
+    "（化为无量纲）。",
+    "B and L come from output angles as delivered, not divided by the scale factor: where N has been divided "
+    "by it, divide B and the row of L of that output axis by the same factor (made dimensionless).",
 )
 
 # Footnotes: where the print of the standard cannot be followed literally

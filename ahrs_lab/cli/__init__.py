@@ -108,6 +108,9 @@ def _parser() -> argparse.ArgumentParser:
         "--ahrs", choices=("vectornav", "xsens", "microstrain"), help="protocol of the unit (vectornav)"
     )
     simulate.add_argument("--tcp", action="store_true", help="the unit on TCP, not on a pseudo-terminal")
+    simulate.add_argument(
+        "--fixed-ports", action="store_true", help="the ports of the bench demo-linked, on TCP"
+    )
     simulate.add_argument("--faults", default="", metavar="NAME=VALUE,…", help="what goes wrong, how much")
     simulate.add_argument("--speed", type=float, default=1.0, metavar="N", help="bench over wall time (1)")
     simulate.add_argument(
@@ -138,6 +141,11 @@ def _evaluation_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--uncertainty", choices=("gum", "annex-a"), default="gum")
 
 
+def _one_line(text: str) -> str:
+    """Names in a message may come from files of anybody: none may drive the terminal or break the line."""
+    return "".join(c if c.isprintable() else " " if c.isspace() else "�" for c in text)
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit code."""
     for stream in (sys.stdout, sys.stderr):
@@ -150,8 +158,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         return commands.run(arguments)
     except AhrsLabError as error:
-        sys.stderr.write(f"ahrs-lab: {error.message.text()}\n")
+        sys.stderr.write(f"ahrs-lab: {_one_line(error.message.text())}\n")
         return error.exit_code
+    except MemoryError:
+        sys.stderr.write("ahrs-lab: The memory of this machine is not enough for this file.\n")
+        return AhrsLabError.exit_code
     except KeyboardInterrupt:
         sys.stderr.write("ahrs-lab: interrupted\n")
         return INTERRUPTED

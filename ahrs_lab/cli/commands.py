@@ -170,7 +170,8 @@ def summary(result: CalibrationResult) -> str:
         lines.append(line(f"L_{pair}", m.L, m.uncertainty.expanded, m.unit, m.uncertainty.coverage_factor))
     lines += [f"  deviation: {message.text()}" for message in result.deviations]
     for warning in result.warnings:
-        place = f"{warning.segment}:{warning.line}: " if warning.segment else ""
+        line_number = f":{warning.line}" if warning.line else ""
+        place = f"{warning.segment}{line_number}: " if warning.segment else ""
         lines.append(f"  warning: {place}{warning.what.text()}")
     return "\n".join(lines)
 

@@ -21,6 +21,8 @@ from ahrs_lab.simulation.servers.served_bench import (
 )
 
 _LOOK_S = 0.2
+FIXED_PORTS = {"ahrs": 9880, "table": 9878, "supply": 5025, "room": 5026, "fixture": 9881}
+"""Those of ``resources/benches/demo-linked.toml``."""
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -64,7 +66,21 @@ def _served(arguments: argparse.Namespace) -> ServedBench:
 def _with_options(serve: ServeSettings, arguments: argparse.Namespace) -> ServeSettings:
     if arguments.ahrs:
         serve = replace(serve, ahrs=arguments.ahrs)
+    if arguments.fixed_ports:
+        serve = _on_fixed_ports(serve)
     return replace(serve, ahrs_on="tcp") if arguments.tcp else serve
+
+
+def _on_fixed_ports(serve: ServeSettings) -> ServeSettings:
+    ports = FIXED_PORTS
+    return replace(
+        serve,
+        ahrs_port=ports["ahrs"],
+        table_port=ports["table"],
+        supply_port=ports["supply"],
+        room_port=ports["room"],
+        fixture_port=ports["fixture"],
+    )
 
 
 def _write(path: Path, bench: ServedBench) -> None:

@@ -6,10 +6,10 @@ unwrapped and, like its rate, positive by the right hand about up.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,6 +115,16 @@ class Ahrs(Protocol):
     def read(self) -> Samples:
         """All samples since the last read, never waits; ``t_s`` and ``host_t_s`` (bench time of arrival) are
         always there. Empty when nothing came: whoever waits for data decides when that is too long."""
+        ...
+
+
+@runtime_checkable
+class CountsLink(Protocol):
+    """An instrument on a wire, which counts what goes wrong there; not all instruments are."""
+
+    @property
+    def link_counts(self) -> Mapping[str, int]:
+        """Counts since its last start, by name: frames, failed, skipped_bytes, lost …"""
         ...
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Any
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.instruments.interfaces import Bench
 from ahrs_lab.procedures.plan import Plan, plan_from_toml
+from ahrs_lab.recording.toml_table import parse_toml
 from ahrs_lab.resource_files import resource_path
 
 
@@ -33,7 +33,7 @@ def bench_from_text(text: str, source: str, *, speed: float | None = None) -> Be
 
 def _parsed(text: str, source: str) -> dict[str, Any]:
     try:
-        return tomllib.loads(text)
+        return parse_toml(text)
     except ValueError as error:
         raise InputError("{source} is not valid TOML: {reason}.", source=source, reason=str(error)) from error
 
@@ -42,9 +42,10 @@ def bench_from_toml(data: dict[str, Any], source: str, *, speed: float | None = 
     """The bench of a TOML document; ``kind`` says what it is made of."""
     kind = data.get("kind", "simulated")
     if kind == "instruments":
-        from ahrs_lab.laboratory.linked_benches import linked_bench
+        from ahrs_lab.laboratory.home import home_folder
+        from ahrs_lab.laboratory.supervised_bench import supervised_bench
 
-        return linked_bench(data, source, speed=speed)
+        return supervised_bench(data, source, speed=speed, report=home_folder() / "supervisor.jsonl")
     if kind != "simulated":
         raise InputError(
             "{source}: there are benches of kind “simulated” and “instruments”, not “{kind}”.",

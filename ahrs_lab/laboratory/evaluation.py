@@ -73,9 +73,11 @@ def write_json(data: dict[str, Any], target: Path) -> None:
 def read_result(path: Path) -> CalibrationResult:
     """A result file written earlier; from outside, so it is checked."""
     try:
-        if path.stat().st_size > MAXIMAL_RESULT_BYTES:
+        with path.open("rb") as file:
+            text = file.read(MAXIMAL_RESULT_BYTES + 1)
+        if len(text) > MAXIMAL_RESULT_BYTES:
             raise InputError("{path} is too large for a result: is it the right file?", path=path)
-        data = json.loads(path.read_text(encoding="utf-8"))
+        data = json.loads(text.decode("utf-8"))
     except OSError as error:
         raise InputError("{path} cannot be read ({reason}).", path=path, reason=error.strerror) from error
     except (ValueError, RecursionError) as error:

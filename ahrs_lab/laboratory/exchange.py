@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import tempfile
 from datetime import date, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, OutputFolder, evaluate_bundle
 from ahrs_lab.metrology.result_json import to_json
+from ahrs_lab.recording.bundle_source import HEADER_FILE
 from ahrs_lab.records.rows import CustomerRow, DeviceRow, JobDraft, SignedIn
 
 if TYPE_CHECKING:
@@ -45,6 +47,7 @@ def import_bundle(laboratory: Laboratory, bundle: Path, actor: SignedIn | None) 
     from ahrs_lab.recording.archive import unpack
     from ahrs_lab.recording.read import read_bundle
 
+    folder = _folder(bundle)
     recording = read_bundle(bundle)
     result = evaluate_bundle(bundle, EvaluationSettings())
     person = actor or laboratory.records.people.machine_user()
@@ -52,25 +55,49 @@ def import_bundle(laboratory: Laboratory, bundle: Path, actor: SignedIn | None) 
     notes: dict[str, Any] = recording.header.notes
     import tomli_w
 
-    number = laboratory.create_job(
-        JobDraft(
-            customer=CustomerRow(0, "—"),
-            device=DeviceRow(0, device.name, "", device.manufacturer, device.model, device.serial_number),
-            received=_day(notes.get("started_utc")),
-            plan_toml=tomli_w.dumps(notes["plan"]) if isinstance(notes.get("plan"), dict) else "",
-        ),
-        person,
+    draft = JobDraft(
+        customer=CustomerRow(0, "—"),
+        device=DeviceRow(0, device.name, "", device.manufacturer, device.model, device.serial_number),
+        received=_day(notes.get("started_utc")),
+        plan_toml=tomli_w.dumps(notes["plan"]) if isinstance(notes.get("plan"), dict) else "",
     )
-    target = laboratory.bundle(number)
-    with OutputFolder(target.parent):
-        if bundle.is_dir():
-            shutil.copytree(bundle, target)
+    # Whole beside the jobs first: a copy that fails half-way leaves no job behind.
+    with (
+        OutputFolder(laboratory.home),
+        tempfile.TemporaryDirectory(dir=laboratory.home, prefix="import.") as beside,
+    ):
+        copy = Path(beside) / "recording"
+        if folder is None:
+            unpack(bundle, copy)
         else:
-            unpack(bundle, target)
+            _refuse_links(folder)
+            shutil.copytree(folder, copy)
+        number = laboratory.create_job(draft, person)
+        target = laboratory.bundle(number)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        copy.replace(target)
     text = json.dumps(to_json(result), ensure_ascii=False, allow_nan=False)
     laboratory.records.jobs.add_result(number, text, person)
     laboratory.records.jobs.move(number, "measured", person)
     return number
+
+
+def _folder(bundle: Path) -> Path | None:
+    """The recording's folder, which may be named by its ``recording.toml``; None for an archive."""
+    if bundle.is_dir():
+        return bundle
+    return bundle.parent if bundle.name == HEADER_FILE else None
+
+
+def _refuse_links(folder: Path) -> None:
+    """A link would bring in what the sender only knows the place of, and the next export send it out."""
+    for path in folder.rglob("*"):
+        if path.is_symlink() or not (path.is_dir() or path.is_file()):
+            raise InputError(
+                "{file} of {folder} is missing or is a link: copy the file itself there.",
+                file=path.relative_to(folder),
+                folder=folder,
+            )
 
 
 def _day(utc: object) -> date:

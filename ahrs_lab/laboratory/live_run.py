@@ -7,7 +7,8 @@ returns at once.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -69,6 +70,20 @@ class ScreenOperator:
 
 _Work = tuple[Procedure, tuple[Step, ...]]
 """What is to be done, and its steps for the list and the time left."""
+
+
+@contextmanager
+def _raw_bytes_kept(bench: Bench, folder: Path) -> Iterator[None]:
+    """What arrives from real instruments meanwhile is kept beside the segments, in ``raw/``."""
+    keep_raw = getattr(bench, "keep_raw", None)
+    if keep_raw is None:
+        yield
+        return
+    keep_raw(folder / "raw")
+    try:
+        yield
+    finally:
+        keep_raw(None)
 
 
 class LiveRun:
@@ -166,7 +181,8 @@ class LiveRun:
 
     def _work(self, runner: Runner, writer: BundleWriter, procedure: Procedure) -> None:
         try:
-            self.outcome = self._run(runner, writer, procedure, self.steps)
+            with _raw_bytes_kept(self._bench, self.folder):
+                self.outcome = self._run(runner, writer, procedure, self.steps)
         finally:
             self._ended.set()
 

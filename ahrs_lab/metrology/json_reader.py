@@ -116,17 +116,23 @@ class JsonReader:
         return {key: inside.object(key) for key in known if key in inside.data}
 
 
-def message_from_json(data: object, key: str) -> Message:
+_MOST_LEVELS = 8
+"""A sentence in a sentence in a sentence: ours stop at three."""
+
+
+def message_from_json(data: object, key: str, level: int = 0) -> Message:
     """A :class:`Message` whose template can be filled with its values and does nothing else; InputError
     otherwise."""
     if isinstance(data, str):
         return Message(data)
+    if level > _MOST_LEVELS:
+        raise _fault(key, Message("a number or a text"), "{…}")
     reader = JsonReader(data, key)
     template = reader.text("template")
     params: dict[str, object] = {}
     for name, value in (reader.object("params").data if reader.has("params") else {}).items():
         if isinstance(value, Mapping):
-            params[name] = message_from_json(value, f"{key}.params.{name}")
+            params[name] = message_from_json(value, f"{key}.params.{name}", level + 1)
         elif value is None or isinstance(value, (str, int, float, bool)):
             params[name] = value
         else:

@@ -97,10 +97,14 @@ class ZeroOffsetResult:
     azimuths_deg: tuple[float, ...] = ()
     durations_s: tuple[float, ...] = ()
     repeatability_dps: float | None = None
-    """What B may be another day (bias instability at the dwell), °/s; beside U, not in it."""
+    """What B may be another day, °/s; beside U, not in it."""
     earth_rate_check: Mapping[str, float] | None = None
-    """Multi-position: first harmonic: ``amplitude_dps``, ``expected_dps``, ``phase_deg``."""
+    """Multi-position: first harmonic: ``amplitude_dps``, ``expected_dps``, ``phase_deg``, and
+    ``heading_at_zero_deg``: where the axis points, clockwise from north, at table azimuth 0."""
     segments: tuple[str, ...] = ()
+    repeatability_cycles: int = 0
+    """Power-ons whose single results scatter by ``repeatability_dps``; 0: it is the Allan deviation at the
+    dwell, which shows the bias instability alone."""
 
 
 @dataclass(frozen=True)

@@ -76,7 +76,7 @@ def from_json_text(text: str) -> CalibrationResult:
     """The inverse of :func:`to_json_text`; raises InputError for what is no result."""
     try:
         return from_json(json.loads(text))
-    except (json.JSONDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise InputError("The result is not valid JSON: {reason}", reason=str(error)) from error
 
 
@@ -238,6 +238,7 @@ def _zero_offset(found: ZeroOffsetResult) -> dict[str, Any]:
         "azimuths_deg": list(found.azimuths_deg),
         "durations_s": list(found.durations_s),
         "repeatability_dps": found.repeatability_dps,
+        "repeatability_cycles": found.repeatability_cycles,
         "earth_rate_check": None if found.earth_rate_check is None else dict(found.earth_rate_check),
         "segments": list(found.segments),
     }
@@ -257,6 +258,9 @@ def _read_zero_offset(axis: AxisName, reader: JsonReader) -> ZeroOffsetResult:
         azimuths_deg=reader.numbers("azimuths_deg", ()),
         durations_s=reader.numbers("durations_s", ()),
         repeatability_dps=reader.optional_number("repeatability_dps"),
+        repeatability_cycles=(
+            reader.whole("repeatability_cycles") if reader.has("repeatability_cycles") else 0
+        ),
         earth_rate_check=None if check is None else {name: check.number(name) for name in check.data},
         segments=reader.texts("segments"),
     )

@@ -46,6 +46,8 @@ class AzimuthCheck:
         segment = recorded.segment
         if segment.role != "position" or self._per_dps is None or not set(GYRO) <= recorded.means.keys():
             return None
+        if (segment.azimuth_deg or 0.0) % 90.0:
+            return None  # between two quarter turns: the orientation names only the nearest (7.2.2)
         mounting = str(segment.extra.get("mounting", ""))
         cycle = int(segment.extra.get("power_cycle", 0))
         here = _Position(

@@ -14,12 +14,13 @@ from ahrs_lab.errors import InputError, MachineError
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.plan_rules import check_plan
 from ahrs_lab.procedures.plan_settings import STANDARD_DURATION_S, Plan
+from ahrs_lab.recording.toml_table import parse_toml
 
 
 def plan_from_text(text: str, source: str) -> Plan:
     """A checked plan from TOML text; ``source`` names it in what InputError says."""
     try:
-        return plan_from_toml(tomllib.loads(text))
+        return plan_from_toml(parse_toml(text))
     except tomllib.TOMLDecodeError as error:
         raise InputError(
             "The plan {file} is not valid TOML: {reason}.", file=source, reason=str(error)

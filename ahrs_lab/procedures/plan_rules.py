@@ -25,6 +25,8 @@ from ahrs_lab.procedures.plan_settings import (
 FEWEST_RATES, MOST_RATES = 7, 11
 LEAST_DWELL_S = 20.0
 LEAST_SAMPLE_RATE_HZ = 10.0
+RECOMMENDED_POSITIONS = 12
+"""Of the multi-position method, 30° apart (7.2.2)."""
 RATE_RANGE_DPS = (0.001, 1000.0)
 """Clause 6.1: where the standard states the table's uncertainty."""
 _MOST_RATE_DPS = 1e5
@@ -302,7 +304,7 @@ def _zero_offset(plan: Plan) -> list[Message]:
                 "has four positions for each axis."
             )
         )
-    if zero_offset.schedule == "multi-position":
+    if zero_offset.schedule == "multi-position" and zero_offset.positions != RECOMMENDED_POSITIONS:
         found.append(
             Message(
                 "Zero offset by the multi-position method of 7.2.2 with {positions} positions; 7.2.2 "

@@ -189,8 +189,8 @@ def _result(
         ]
     )
     B = zero_offset(angles, durations)
-    noise = evidence.noise[axis].scaled(factor)
     duration = float(durations.mean())
+    repeatability, cycles = _repeatability(evidence, axis, positions, factor, duration)
     budget = zero_offset_uncertainty(
         B,
         _budget_input(evidence, axis, positions, angles, durations, factor, scale_relative),
@@ -210,10 +210,47 @@ def _result(
         orientations=tuple(position.orientation.letters for position in positions),
         azimuths_deg=tuple(position.azimuth_deg for position in positions),
         durations_s=tuple(durations.tolist()),
-        repeatability_dps=noise.allan_deviation(duration) if noise.white > 0.0 else None,
+        repeatability_dps=repeatability,
+        repeatability_cycles=cycles,
         earth_rate_check=_earth_rate_check(evidence, schedule, positions, angles / durations),
         segments=names(takes),
     )
+
+
+def _repeatability(
+    evidence: Evidence, axis: Axis, positions: Sequence[_Position], factor: float, duration_s: float
+) -> tuple[float | None, int]:
+    """What B may be another day, °/s, and from how many power-ons it was found.
+
+    Experimental standard deviation of one B, where every position was repeated with power off between; else
+    (0 power-ons) the Allan deviation at the dwell, which knows nothing of the turn-on; None without noise.
+    """
+    repeats: dict[int, list[list[Take]]] = {}
+    for position in positions:
+        numbered: dict[int, list[Take]] = {}
+        for take in position.takes:
+            numbered.setdefault(int(take.segment.extra.get("repeat", 1)), []).append(take)
+        for number, takes in numbered.items():
+            repeats.setdefault(number, []).append(takes)
+    whole = [groups for groups in repeats.values() if len(groups) == len(positions)]
+    power_ons = [{_power_on(take) for takes in groups for take in takes} for groups in whole]
+    apart = sum(len(known) for known in power_ons) == len(set().union(*power_ons))
+    if len(whole) >= 2 and apart and None not in set().union(*power_ons):
+        offsets = [
+            zero_offset(
+                [factor * sum(take.output.dwell_angle(axis) for take in takes) for takes in groups],
+                [sum(take.output.duration_s for take in takes) for takes in groups],
+            )
+            for groups in whole
+        ]
+        return float(np.std(offsets, ddof=1)), len(whole)
+    noise = evidence.noise[axis].scaled(factor)
+    return (noise.allan_deviation(duration_s) if noise.white > 0.0 else None), 0
+
+
+def _power_on(take: Take) -> int | None:
+    number = take.segment.extra.get("power_cycle")
+    return number if isinstance(number, int) else None
 
 
 def _budget_input(
@@ -272,4 +309,6 @@ def _earth_rate_check(
         "amplitude_dps": harmonic.amplitude_dps,
         "expected_dps": harmonic.expected_dps,
         "phase_deg": harmonic.phase_deg,
+        # azimuth counts against the heading: the table turns anticlockwise
+        "heading_at_zero_deg": (headings[0] + positions[0].azimuth_deg) % 360.0,
     }

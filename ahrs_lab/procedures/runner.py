@@ -34,6 +34,7 @@ from ahrs_lab.procedures.events import (
     Warned,
 )
 from ahrs_lab.procedures.execution import Execution
+from ahrs_lab.procedures.link_watch import LinkWatch
 from ahrs_lab.procedures.plan_file import plan_to_toml
 from ahrs_lab.procedures.plan_rules import check_plan, deviations
 from ahrs_lab.procedures.plan_settings import Plan
@@ -112,6 +113,7 @@ class Runner:
         self._execution = Execution(bench, self._watch, recorder, self._emit, self._set_waiting)
         self._azimuth = AzimuthCheck(bench.site.latitude_deg, bench.ahrs.description)
         self._room = RoomLog()
+        self._link = LinkWatch(bench.ahrs)
         self._remaining = Remaining(())
         self._segments: list[str] = []
         self._warnings: list[Warned] = []
@@ -253,9 +255,9 @@ class Runner:
 
     def _after_segment(self, recorded: Recorded) -> None:
         self._segments.append(recorded.segment.name)
-        warning = self._azimuth.add(recorded)
-        if warning is not None:
-            self._emit(Warned(warning, recorded.segment.name))
+        for warning in (self._azimuth.add(recorded), self._link.end()):
+            if warning is not None:
+                self._emit(Warned(warning, recorded.segment.name))
 
     def _pause_here(self, following: Command) -> None:
         """Pause, if asked to and the table may be stopped before ``following``."""
@@ -317,6 +319,8 @@ class Runner:
         environment = self._room.summary()
         if environment:
             notes["environment"] = environment
+        if self._link.totals:
+            notes["link"] = dict(self._link.totals)
         if self._warnings:
             earlier = self._writer.notes.get("run_warnings", [])
             notes["run_warnings"] = [
@@ -389,6 +393,7 @@ class Runner:
 
     def _conditions(self) -> dict[str, Any]:
         """What is kept with each segment."""
+        self._link.begin()
         room, supply = self._bench.room.read(), self._watch.read_supply()
         self._note_room(room)
         return {

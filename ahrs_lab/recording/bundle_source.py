@@ -38,6 +38,10 @@ class BundleSource(Protocol):
         """What to read the file from: its path, or its bytes where it has none."""
         ...
 
+    def head(self, name: str, size: int) -> bytes:
+        """At most ``size`` bytes from the file's beginning."""
+        ...
+
     def close(self) -> None: ...
 
 
@@ -57,17 +61,20 @@ class FolderSource:
     def load(self, name: str) -> Path | bytes:
         return self._inside(name)
 
+    def head(self, name: str, size: int) -> bytes:
+        with self.open(name) as file:
+            return file.read(size)
+
     def close(self) -> None:
         return None
 
     def _inside(self, name: str) -> Path:
-        path = (self._root / name).resolve()
+        try:
+            path = (self._root / name).resolve()
+        except RuntimeError as error:  # links in a circle
+            raise _outside(name, self.path) from error
         if not path.is_relative_to(self._root):
-            raise InputError(
-                "{file} lies outside the recording {folder}: copy it into the recording.",
-                file=name,
-                folder=self.path,
-            )
+            raise _outside(name, self.path)
         return path
 
 
@@ -96,6 +103,10 @@ class ArchiveSource:
         with self.reading(), self.open(name) as file:
             return file.read()
 
+    def head(self, name: str, size: int) -> bytes:
+        with self.reading(), self.open(name) as file:
+            return file.read(size)
+
     def close(self) -> None:
         self._zip.close()
 
@@ -122,6 +133,12 @@ def open_source(path: Path) -> FolderSource | ArchiveSource:
         if not path.exists():
             raise InputError(
                 "{path} does not exist: name the folder or the .ahrsrec file of a recording.", path=path
+            )
+        if not path.is_file():
+            raise InputError(
+                "{path} is neither a folder nor an ordinary file: name the folder or the .ahrsrec file of a "
+                "recording.",
+                path=path,
             )
         return ArchiveSource(path)
     except OSError as error:
@@ -157,6 +174,12 @@ def checked_members(archive: zipfile.ZipFile, path: Path) -> dict[str, zipfile.Z
             size=total,
             limit=MAX_TOTAL_BYTES,
         )
+    for info in infos:
+        for folder in PurePosixPath(info.filename.casefold()).parents:
+            if str(folder) in seen:
+                raise InputError(
+                    "{archive} holds {file} twice: pack the recording again.", archive=path, file=str(folder)
+                )
     prefix = _prefix([info.filename for info in infos], path)
     return {info.filename[len(prefix) :]: info for info in infos if info.filename.startswith(prefix)}
 
@@ -184,6 +207,12 @@ def _check_member(info: zipfile.ZipInfo, path: Path) -> None:
             archive=path,
             file=repr(name),
         )
+    if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise InputError(
+            "{archive} is packed in a way that is not read here: pack the recording again, as an ordinary "
+            "zip file.",
+            archive=path,
+        )
     kind = stat.S_IFMT(info.external_attr >> 16)
     if kind not in (0, stat.S_IFREG):
         raise InputError(
@@ -209,6 +238,12 @@ def _prefix(names: list[str], path: Path) -> str:
     if len(below) != 1:
         raise InputError("{archive} is not a recording: there is no recording.toml in it.", archive=path)
     return below[0].removesuffix(HEADER_FILE)
+
+
+def _outside(name: str, folder: Path) -> InputError:
+    return InputError(
+        "{file} lies outside the recording {folder}: copy it into the recording.", file=name, folder=folder
+    )
 
 
 def _damaged(path: Path, error: Exception) -> InputError:

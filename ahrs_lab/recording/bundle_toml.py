@@ -26,13 +26,16 @@ from ahrs_lab.recording.segment import (
     Segment,
     Site,
 )
-from ahrs_lab.recording.toml_table import TomlTable
+from ahrs_lab.recording.toml_table import TomlTable, parse_toml
 
 FORMAT = "ahrs-lab-recording"
 VERSION = 1
 PROCEDURES = ("jjf1536-2015", "imu-discrete", "static", "dynamic")
 SUFFIXES = (".csv", ".parquet")
 MAX_BYTES = 16 * 2**20
+
+_LARGEST = 1e6
+"""No table turns faster (°/s) or more often; beyond, products of two such numbers need not be finite."""
 
 _TOP = ("format", "version", "procedure", "site", "device", "initial", "segment")
 _SITE = ("latitude_deg", "longitude_deg", "altitude_m")
@@ -75,7 +78,7 @@ def parse(data: bytes, where: str) -> tuple[RecordingHeader, tuple[Segment, ...]
             limit=MAX_BYTES // 2**20,
         )
     try:
-        document = tomllib.loads(data.decode("utf-8-sig"))
+        document = parse_toml(data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise InputError(
             "{where} is not UTF-8 text (byte {byte}): save it as UTF-8.", where=where, byte=error.start
@@ -162,10 +165,12 @@ def segment_from_table(entry: Mapping[str, Any], where: str, what: str) -> Segme
     orientation = _orientation(table)
     free = item in ("static", "dynamic", "rotation")
     role = table.choice("role", get_args(Role), "position" if free else None)
-    rate = table.number("rate_dps", None if role == "rate" else 0.0)
+    rate = table.number("rate_dps", None if role == "rate" else 0.0, -_LARGEST, _LARGEST)
     turns = table.whole("turns", required=role == "turns")
     if turns == 0:
         raise table.fault(Message("“{key}” is 0: write the whole turns, signed.", key="turns"))
+    if turns is not None and abs(turns) > _LARGEST:
+        raise table.wrong("turns", "int")
     position = table.whole("position", required=role == "position" and not free)
     if position is not None and position < 1:
         raise table.fault(Message("“{key}” counts from 1.", key="position"))
@@ -244,7 +249,7 @@ def _orientation(table: TomlTable) -> Orientation:
 
 def _check_path(file: str, table: TomlTable) -> None:
     path = PurePosixPath(file)
-    inside = bool(file) and not path.is_absolute() and ".." not in path.parts
+    inside = bool(file) and file.isprintable() and not path.is_absolute() and ".." not in path.parts
     if not inside or "\\" in file or ":" in file or "\0" in file:
         raise table.fault(
             Message(

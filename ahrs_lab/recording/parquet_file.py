@@ -37,13 +37,13 @@ def read_parquet(source: Path | bytes) -> RawSegment:
             numeric = [entry.name for entry in schema if _is_numeric(entry.type)]
             _check_size(file.metadata.num_rows, len(numeric))
             table = file.read(columns=numeric, use_pandas_metadata=False)
+        columns = {name: _float_column(table.column(name)) for name in numeric}
     except (pa.ArrowException, OSError, ValueError) as error:
         raise SegmentFileError(
             Message("the file cannot be read as Parquet: {error}", error=_first_line(error))
         ) from error
     if table.num_rows == 0:
         raise SegmentFileError(Message("the file has no sample: record the segment again."), line=2)
-    columns = {name: _float_column(table.column(name)) for name in numeric}
     left_out = tuple(name for name in schema.names if name not in columns)
     return RawSegment(columns, consecutive_lines(table.num_rows), left_out=left_out)
 
@@ -78,7 +78,8 @@ def _float_column(column: Any) -> Array:
     import pyarrow as pa
 
     if column.type != pa.float64() or column.null_count:
-        column = column.cast(pa.float64()).fill_null(float("nan"))
+        # Counters beyond 2^53 lose their last digits: nothing else can be done with them.
+        column = column.cast(pa.float64(), safe=False).fill_null(float("nan"))
     return np.asarray(column.to_numpy(), dtype=np.float64)
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ahrs_lab.errors import InputError, MachineError
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.bundle_source import HEADER_FILE, BundleSource, content_sha256, open_source
-from ahrs_lab.recording.bundle_toml import parse
+from ahrs_lab.recording.bundle_toml import MAX_BYTES, parse
 from ahrs_lab.recording.clean_rows import CleanRows, clean_rows
 from ahrs_lab.recording.completeness import PROCEDURE, missing_segments
 from ahrs_lab.recording.csv_file import read_csv
@@ -168,8 +168,8 @@ def _digest(path: Path, files: list[str]) -> str:
 def _header(source: BundleSource) -> tuple[RecordingHeader, tuple[Segment, ...]]:
     if not source.has(HEADER_FILE):
         raise InputError("{folder} is not a recording: there is no recording.toml in it.", folder=source.path)
-    data = source.load(HEADER_FILE)
-    return parse(data if isinstance(data, bytes) else data.read_bytes(), str(source.path / HEADER_FILE))
+    data = source.head(HEADER_FILE, MAX_BYTES + 1)
+    return parse(data, str(source.path / HEADER_FILE))
 
 
 def _read_segment(source: BundleSource, segment: Segment, header: RecordingHeader) -> RecordedSegment:

@@ -1,8 +1,10 @@
-"""Reading a table of TOML key by key: every complaint says file, table, key and what to write instead."""
+"""Reading TOML that nobody vouches for: whole texts, and tables key by key, where every complaint says file,
+table, key and what to write instead."""
 
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -15,6 +17,37 @@ _KINDS = {
     "int": Message("a whole number"),
     "bool": Message("true or false"),
 }
+
+
+_MOST_LEVELS = 64
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """The document of ``text``; raises only :class:`tomllib.TOMLDecodeError`.
+
+    Also for what Python's own reader lets through or stumbles over: whole numbers beyond the 64 bits of TOML,
+    and nesting so deep that nobody can walk it.
+    """
+    try:
+        document = tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        raise
+    except RecursionError as error:
+        raise tomllib.TOMLDecodeError("tables or lists are nested too deeply") from error
+    except ValueError as error:  # more digits than Python turns into a number
+        raise tomllib.TOMLDecodeError("a whole number has more than 64 bits") from error
+    left: list[tuple[object, int]] = [(document, 0)]
+    while left:
+        value, level = left.pop()
+        if level > _MOST_LEVELS:
+            raise tomllib.TOMLDecodeError("tables or lists are nested too deeply")
+        if isinstance(value, dict):
+            left.extend((entry, level + 1) for entry in value.values())
+        elif isinstance(value, list):
+            left.extend((entry, level + 1) for entry in value)
+        elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+            raise tomllib.TOMLDecodeError("a whole number has more than 64 bits")
+    return document
 
 
 class TomlTable:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from sqlalchemy import URL, Connection, Engine, create_engine, event, insert, inspect, select, text
-from sqlalchemy.exc import DatabaseError, OperationalError
+from sqlalchemy.exc import DatabaseError, IntegrityError, OperationalError
 from sqlalchemy.pool import NullPool
 
 from ahrs_lab.errors import InputError, MachineError
@@ -33,6 +33,7 @@ class Records:
         self.path = path
         self._engine = _engine(path)
         with said_plainly(path):
+            _for_the_owner_only(path)
             self._prepare()
         self.audit = Audit(self)
         self.people = People(self)
@@ -89,6 +90,13 @@ class Records:
             yield connection
 
 
+def _for_the_owner_only(path: Path) -> None:
+    """Password hashes and customers are in it; what SQLite puts beside it takes over who may read it."""
+    with suppress(OSError):  # what stands in the way, SQLite meets next
+        path.touch(mode=0o600)
+        path.chmod(0o600)
+
+
 @contextmanager
 def said_plainly(path: Path) -> Iterator[None]:
     """What SQLite refuses, in words for a person."""
@@ -104,7 +112,11 @@ def said_plainly(path: Path) -> Iterator[None]:
     except DatabaseError as error:
         if "not a database" in str(error.orig):
             raise InputError("{path} is not a database of records.", path=path) from error
-        raise
+        if isinstance(error, IntegrityError):
+            raise
+        raise InputError(
+            "The records {path} are damaged ({reason}): restore a backup.", path=path, reason=str(error.orig)
+        ) from error
 
 
 def _engine(path: Path) -> Engine:

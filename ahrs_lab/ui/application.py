@@ -99,11 +99,14 @@ class Screen:
 
     def _add_pages(self) -> None:
         from ahrs_lab.ui.pages.all_pages import make_pages
+        from ahrs_lab.ui.pages.instruments.page import InstrumentsPage
         from ahrs_lab.ui.pages.setup import SetupPage
         from ahrs_lab.ui.run.page import RunPage
 
         pages = list(make_pages(self.desk))
         pages.insert(2, RunPage(self.workspace, self.desk.resume_run, self.desk.repeat_segment))
+        self.instruments = InstrumentsPage(self.desk)
+        pages.insert(-1, self.instruments)
         for page in pages:
             self.window.add_page(page)
             if isinstance(page, SetupPage):
@@ -143,6 +146,7 @@ class Screen:
     def close(self) -> None:
         """Nothing of the screen works on after this."""
         self.workspace.run.close()
+        self.instruments.close_session()
         self.desk.close()
 
 

@@ -17,6 +17,7 @@ _GLYPHS = {
     "analyse": "ph.chart-line",
     "bench": "ph.disc",
     "setup": "ph.gear-six",
+    "instruments": "ph.gauge",
     "theme": "ph.circle-half",
     "light": "ph.sun",
     "dark": "ph.moon",

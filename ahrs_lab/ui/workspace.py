@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from PySide6.QtCore import QObject, Signal
 
@@ -44,12 +44,27 @@ class Worker:
     name_en: str = ""
 
 
+class Stoppable(Protocol):
+    """What STOP stops besides the run."""
+
+    @property
+    def live(self) -> bool:
+        """There is something to stop."""
+        ...
+
+    def stop(self) -> bool:
+        """Begin to stop, at once; False where there was nothing."""
+        ...
+
+
 class Workspace(QObject):
     """See the module. ``laboratory`` is :class:`ahrs_lab.laboratory.Laboratory`; tests may give a smaller
     one."""
 
     job_changed = Signal()
     worker_changed = Signal()
+    run_starting = Signal()
+    """A run is about to take the bench: whoever holds its wires lets them go."""
     run_started = Signal()
     run_ended = Signal()
     page_requested = Signal(str)
@@ -68,6 +83,7 @@ class Workspace(QObject):
         self.worker: Worker | None = None
         self.run = RunBridge(self)
         self.run.ended.connect(self.run_ended)
+        self.stoppable: list[Stoppable] = []
 
     def open_job(self, job: OpenJob | None) -> None:
         """Make it the job of all pages; also to say that its headline changed."""
@@ -90,6 +106,8 @@ class Workspace(QObject):
     def start_run(self, make: Callable[[RunBridge], LiveRun]) -> None:
         """Start the run that ``make`` builds; it gives the bridge's ``on_event`` and ``on_samples`` to
         :class:`LiveRun`. What ``make`` and the start raise is the caller's to show."""
+        self.run_starting.emit()
+        self.run.release()
         self.run.start(make)
         self.run_started.emit()
         self.go_to("run")

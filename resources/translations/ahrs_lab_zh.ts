@@ -2,6 +2,97 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="zh_CN">
 <context>
+    <name>AhrsView</name>
+    <message>
+        <source>The stream is paused, the settings of the bench file are set and read back; what differs is shown.</source>
+        <translation>暂停数据流，写入台架文件中的设置并回读；显示不一致的项目。</translation>
+    </message>
+    <message>
+        <source>The device has taken every setting.</source>
+        <translation>设备已接受全部设置。</translation>
+    </message>
+    <message>
+        <source>Shows how soon a pulled data cable is noticed and the stream is back.</source>
+        <translation>检验拔出数据线多久被发现、数据流多久恢复。</translation>
+    </message>
+    <message>
+        <source>Pull the device&apos;s data cable now.</source>
+        <translation>请现在拔出设备的数据线。</translation>
+    </message>
+    <message>
+        <source>The loss was noticed. Plug the cable in again.</source>
+        <translation>已发现断线。请重新插上数据线。</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Begin the test</source>
+        <translation>开始检验</translation>
+    </message>
+    <message>
+        <source>Readings, mean of one second</source>
+        <translation>读数（1 s 平均）</translation>
+    </message>
+    <message>
+        <source>Rate</source>
+        <translation>角速率</translation>
+    </message>
+    <message>
+        <source>Specific force</source>
+        <translation>比力</translation>
+    </message>
+    <message>
+        <source>Heading, pitch, roll</source>
+        <translation>航向、俯仰、横滚</translation>
+    </message>
+    <message>
+        <source>The line</source>
+        <translation>数据线路</translation>
+    </message>
+    <message>
+        <source>Samples</source>
+        <translation>样本数</translation>
+    </message>
+    <message>
+        <source>Sample rate</source>
+        <translation>采样率</translation>
+    </message>
+    <message>
+        <source>Bits per second</source>
+        <translation>比特率</translation>
+    </message>
+    <message>
+        <source>Host − device time</source>
+        <translation>主机 − 设备时间</translation>
+    </message>
+    <message>
+        <source>Clock rate</source>
+        <translation>时钟速率差</translation>
+    </message>
+    <message>
+        <source>Late by (95 %)</source>
+        <translation>延迟（95 %）</translation>
+    </message>
+    <message>
+        <source>Temperature</source>
+        <translation>温度</translation>
+    </message>
+    <message>
+        <source>Settings of the device</source>
+        <translation>设备设置</translation>
+    </message>
+    <message>
+        <source>Configure and read back</source>
+        <translation>配置并回读</translation>
+    </message>
+    <message>
+        <source>Unplugging</source>
+        <translation>断线检验</translation>
+    </message>
+</context>
+<context>
     <name>BeforeRunCard</name>
     <message>
         <source>of bench time; mountings: {count}</source>
@@ -132,6 +223,10 @@
     <message>
         <source>Value</source>
         <translation>值</translation>
+    </message>
+    <message>
+        <source>not connected</source>
+        <translation>未连接</translation>
     </message>
     <message>
         <source>within clause 6</source>
@@ -621,6 +716,287 @@
     </message>
 </context>
 <context>
+    <name>InstrumentDialog</name>
+    <message>
+        <source>Language to begin with</source>
+        <translation>初始指令集</translation>
+    </message>
+    <message>
+        <source>Remove from the bench</source>
+        <translation>从台架移除</translation>
+    </message>
+    <message>
+        <source>Driver</source>
+        <translation>驱动程序</translation>
+    </message>
+    <message>
+        <source>Settings that are left empty have the driver&apos;s own default, shown in grey.</source>
+        <translation>留空的设置采用驱动程序的默认值（灰色显示）。</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+    <message>
+        <source>Fewer settings</source>
+        <translation>较少设置</translation>
+    </message>
+    <message>
+        <source>All settings</source>
+        <translation>全部设置</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>是</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>否</translation>
+    </message>
+    <message>
+        <source>no end</source>
+        <translation>无限制</translation>
+    </message>
+</context>
+<context>
+    <name>InstrumentWords</name>
+    <message>
+        <source>Rate table</source>
+        <translation>速率转台</translation>
+    </message>
+    <message>
+        <source>AHRS</source>
+        <translation>航姿仪</translation>
+    </message>
+    <message>
+        <source>Power supply</source>
+        <translation>直流电源</translation>
+    </message>
+    <message>
+        <source>Room sensor</source>
+        <translation>温湿度计</translation>
+    </message>
+    <message>
+        <source>not connected</source>
+        <translation>未连接</translation>
+    </message>
+    <message>
+        <source>connecting …</source>
+        <translation>正在连接…</translation>
+    </message>
+    <message>
+        <source>connected</source>
+        <translation>已连接</translation>
+    </message>
+    <message>
+        <source>link lost</source>
+        <translation>连接中断</translation>
+    </message>
+    <message>
+        <source>fault</source>
+        <translation>故障</translation>
+    </message>
+    <message>
+        <source>Serial port</source>
+        <translation>串口</translation>
+    </message>
+    <message>
+        <source>Baud rate</source>
+        <translation>波特率</translation>
+    </message>
+    <message>
+        <source>Network address</source>
+        <translation>网络地址</translation>
+    </message>
+    <message>
+        <source>TCP port</source>
+        <translation>TCP 端口</translation>
+    </message>
+    <message>
+        <source>Highest rate, °/s</source>
+        <translation>最大角速率，°/s</translation>
+    </message>
+    <message>
+        <source>Highest acceleration, °/s²</source>
+        <translation>最大角加速度，°/s²</translation>
+    </message>
+    <message>
+        <source>Smallest angle, °</source>
+        <translation>最小角度，°</translation>
+    </message>
+    <message>
+        <source>Largest angle, °</source>
+        <translation>最大角度，°</translation>
+    </message>
+    <message>
+        <source>Samples per second</source>
+        <translation>每秒样本数</translation>
+    </message>
+    <message>
+        <source>Range of the device, °/s</source>
+        <translation>设备量程，°/s</translation>
+    </message>
+    <message>
+        <source>Manufacturer</source>
+        <translation>制造厂</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>型号</translation>
+    </message>
+    <message>
+        <source>Serial number</source>
+        <translation>出厂编号</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Axis number</source>
+        <translation>轴号</translation>
+    </message>
+    <message>
+        <source>Highest voltage, V</source>
+        <translation>最高电压，V</translation>
+    </message>
+    <message>
+        <source>Highest current, A</source>
+        <translation>最大电流，A</translation>
+    </message>
+    <message>
+        <source>Read every, s</source>
+        <translation>读取间隔，s</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>帧数</translation>
+    </message>
+    <message>
+        <source>Lost</source>
+        <translation>丢失</translation>
+    </message>
+    <message>
+        <source>Checksum wrong</source>
+        <translation>校验错误</translation>
+    </message>
+    <message>
+        <source>Bytes skipped</source>
+        <translation>跳过字节</translation>
+    </message>
+    <message>
+        <source>Repeated</source>
+        <translation>重复</translation>
+    </message>
+    <message>
+        <source>Implausible</source>
+        <translation>不合理</translation>
+    </message>
+    <message>
+        <source>Reconnected</source>
+        <translation>重新连接</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>连接</translation>
+    </message>
+    <message>
+        <source>Identify</source>
+        <translation>识别</translation>
+    </message>
+    <message>
+        <source>Query</source>
+        <translation>查询</translation>
+    </message>
+    <message>
+        <source>Drive on</source>
+        <translation>上电使能</translation>
+    </message>
+    <message>
+        <source>Turn at a rate</source>
+        <translation>以速率转动</translation>
+    </message>
+    <message>
+        <source>Go to an angle</source>
+        <translation>转到角度</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>停止</translation>
+    </message>
+    <message>
+        <source>Drive off</source>
+        <translation>断开使能</translation>
+    </message>
+    <message>
+        <source>Keep alive</source>
+        <translation>保持连接</translation>
+    </message>
+</context>
+<context>
+    <name>InstrumentsPage</name>
+    <message>
+        <source>Instruments</source>
+        <translation>仪器</translation>
+    </message>
+    <message>
+        <source>The rate table&apos;s readings will be here, and buttons to move it by hand.</source>
+        <translation>这里将显示转台的读数和手动控制按钮。</translation>
+    </message>
+    <message>
+        <source>The device&apos;s rates, forces and angles will be here, and what its line loses.</source>
+        <translation>这里将显示设备的角速率、比力和姿态角，以及线路丢失的数据。</translation>
+    </message>
+    <message>
+        <source>Voltage and current of the device will be here, and its switch.</source>
+        <translation>这里将显示设备的电压、电流和电源开关。</translation>
+    </message>
+    <message>
+        <source>Temperature and humidity of the room will be here.</source>
+        <translation>这里将显示室内温度和湿度。</translation>
+    </message>
+    <message>
+        <source>None on this bench yet</source>
+        <translation>此台架尚无该仪器</translation>
+    </message>
+    <message>
+        <source>Add …</source>
+        <translation>添加…</translation>
+    </message>
+    <message>
+        <source>Connect, look, configure and move by hand; a run connects them by itself.</source>
+        <translation>连接、查看、配置、手动控制；校准运行时会自动连接。</translation>
+    </message>
+    <message>
+        <source>Bench of instruments</source>
+        <translation>仪器台架</translation>
+    </message>
+    <message>
+        <source>New bench</source>
+        <translation>新建台架</translation>
+    </message>
+    <message>
+        <source>Use for the open job</source>
+        <translation>用于当前任务</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>当前状态</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>指令集</translation>
+    </message>
+    <message>
+        <source>No bench of instruments yet</source>
+        <translation>尚无仪器台架</translation>
+    </message>
+    <message>
+        <source>The rate table, the device, the power supply and the room sensor will be here, each with its driver, its connection and what it reads.</source>
+        <translation>这里将列出转台、设备、直流电源和温湿度计，以及各自的驱动程序、连接和读数。</translation>
+    </message>
+</context>
+<context>
     <name>JobEditor</name>
     <message>
         <source>Job {number}</source>
@@ -742,6 +1118,45 @@
     </message>
 </context>
 <context>
+    <name>LanguageView</name>
+    <message>
+        <source>no reply</source>
+        <translation>无应答</translation>
+    </message>
+    <message>
+        <source>Language of the table</source>
+        <translation>转台指令集</translation>
+    </message>
+    <message>
+        <source>Each text is said to the table and its reply is shown. {rate} and {angle} are filled in; several texts of one command stand apart by |. Those that turn or point move the table.</source>
+        <translation>逐条向转台发送指令并显示应答。{rate} 和 {angle} 会被填入数值；同一命令的多条指令用 | 分隔。转动和定位指令会使转台运动。</translation>
+    </message>
+    <message>
+        <source>Rate to try, °/s</source>
+        <translation>试用角速率，°/s</translation>
+    </message>
+    <message>
+        <source>Angle to try, °</source>
+        <translation>试用角度，°</translation>
+    </message>
+    <message>
+        <source>Save and connect again</source>
+        <translation>保存并重新连接</translation>
+    </message>
+    <message>
+        <source>Try</source>
+        <translation>试发</translation>
+    </message>
+    <message>
+        <source>How the reply to the query is read (regular expression)</source>
+        <translation>查询应答的解析方式（正则表达式）</translation>
+    </message>
+    <message>
+        <source>How a good reply begins</source>
+        <translation>正常应答的形式</translation>
+    </message>
+</context>
+<context>
     <name>LiveCard</name>
     <message>
         <source>gyro {axis}</source>
@@ -839,6 +1254,29 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     </message>
 </context>
 <context>
+    <name>NameDialog</name>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>New bench</source>
+        <translation>新建台架</translation>
+    </message>
+    <message>
+        <source>A bench is a rate table, a power supply, a room sensor and the device under calibration.</source>
+        <translation>一个台架由转台、直流电源、温湿度计和被校设备组成。</translation>
+    </message>
+    <message>
+        <source>Make it</source>
+        <translation>新建</translation>
+    </message>
+    <message>
+        <source>There is a bench of that name already.</source>
+        <translation>已有同名台架。</translation>
+    </message>
+</context>
+<context>
     <name>NowCard</name>
     <message>
         <source>Stopping</source>
@@ -899,6 +1337,13 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Pause before the next command (P)</source>
         <translation>在下一条指令之前暂停 (P)</translation>
+    </message>
+</context>
+<context>
+    <name>NumberField</name>
+    <message>
+        <source>a number, please</source>
+        <translation>请输入数字</translation>
     </message>
 </context>
 <context>
@@ -966,6 +1411,29 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Place in English</source>
         <translation>英文地点</translation>
+    </message>
+</context>
+<context>
+    <name>PartRow</name>
+    <message>
+        <source>Settings of this instrument</source>
+        <translation>此仪器的设置</translation>
+    </message>
+    <message>
+        <source>none yet</source>
+        <translation>尚未添加</translation>
+    </message>
+    <message>
+        <source>Add …</source>
+        <translation>添加…</translation>
+    </message>
+    <message>
+        <source>Disconnect</source>
+        <translation>断开</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>连接</translation>
     </message>
 </context>
 <context>
@@ -1673,6 +2141,37 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     </message>
 </context>
 <context>
+    <name>RoomView</name>
+    <message>
+        <source>Room now</source>
+        <translation>室内环境</translation>
+    </message>
+    <message>
+        <source>Temperature</source>
+        <translation>温度</translation>
+    </message>
+    <message>
+        <source>Humidity</source>
+        <translation>湿度</translation>
+    </message>
+    <message>
+        <source>Read off and typed in</source>
+        <translation>读数后手动输入</translation>
+    </message>
+    <message>
+        <source>Temperature, °C</source>
+        <translation>温度，°C</translation>
+    </message>
+    <message>
+        <source>Humidity, %RH</source>
+        <translation>湿度，%RH</translation>
+    </message>
+    <message>
+        <source>Enter</source>
+        <translation>录入</translation>
+    </message>
+</context>
+<context>
     <name>RunPage</name>
     <message>
         <source>Run</source>
@@ -2196,6 +2695,168 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Stops the table, then switches the supply off. This is not the hardware emergency stop.</source>
         <translation>先停转台，再断电源。这不是硬件急停按钮。</translation>
+    </message>
+</context>
+<context>
+    <name>SupplyView</name>
+    <message>
+        <source>not connected</source>
+        <translation>未连接</translation>
+    </message>
+    <message>
+        <source>output on</source>
+        <translation>输出开</translation>
+    </message>
+    <message>
+        <source>output off</source>
+        <translation>输出关</translation>
+    </message>
+    <message>
+        <source>Power supply now</source>
+        <translation>直流电源</translation>
+    </message>
+    <message>
+        <source>Voltage</source>
+        <translation>电压</translation>
+    </message>
+    <message>
+        <source>Current</source>
+        <translation>电流</translation>
+    </message>
+    <message>
+        <source>Power of the device</source>
+        <translation>设备供电</translation>
+    </message>
+    <message>
+        <source>Voltage, V</source>
+        <translation>电压，V</translation>
+    </message>
+    <message>
+        <source>Current limit, A</source>
+        <translation>限流，A</translation>
+    </message>
+    <message>
+        <source>Switch on</source>
+        <translation>打开输出</translation>
+    </message>
+    <message>
+        <source>Switch off</source>
+        <translation>关闭输出</translation>
+    </message>
+</context>
+<context>
+    <name>TableView</name>
+    <message>
+        <source>Switch the drive off</source>
+        <translation>断开转台使能</translation>
+    </message>
+    <message>
+        <source>Switch the drive on</source>
+        <translation>转台上电使能</translation>
+    </message>
+    <message>
+        <source>not connected</source>
+        <translation>未连接</translation>
+    </message>
+    <message>
+        <source>set by hand: nothing can stop it but you</source>
+        <translation>手动转台：只有您能使其停止</translation>
+    </message>
+    <message>
+        <source>supervisor watches</source>
+        <translation>监护进程正在监护</translation>
+    </message>
+    <message>
+        <source>no supervisor: a crash leaves the table turning</source>
+        <translation>无监护进程：程序崩溃时转台不会停</translation>
+    </message>
+    <message>
+        <source>Rate table now</source>
+        <translation>转台状态</translation>
+    </message>
+    <message>
+        <source>Rate</source>
+        <translation>角速率</translation>
+    </message>
+    <message>
+        <source>Demanded</source>
+        <translation>设定值</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>角度</translation>
+    </message>
+    <message>
+        <source>Move by hand</source>
+        <translation>手动控制</translation>
+    </message>
+    <message>
+        <source>Table set by hand</source>
+        <translation>手动设定的转台</translation>
+    </message>
+    <message>
+        <source>You set the rate at the table itself; during a run the device on it checks that it is right.</source>
+        <translation>由您在转台上设定角速率；运行时由台上的设备核对是否正确。</translation>
+    </message>
+    <message>
+        <source>Rate to set, °/s</source>
+        <translation>要设定的角速率，°/s</translation>
+    </message>
+    <message>
+        <source>Ask for it</source>
+        <translation>请求设定</translation>
+    </message>
+    <message>
+        <source>Done: the table does that</source>
+        <translation>已完成设定</translation>
+    </message>
+    <message>
+        <source>Rate while held, °/s</source>
+        <translation>按住时的角速率，°/s</translation>
+    </message>
+    <message>
+        <source>Hold: clockwise</source>
+        <translation>按住：顺时针</translation>
+    </message>
+    <message>
+        <source>Hold: anticlockwise</source>
+        <translation>按住：逆时针</translation>
+    </message>
+    <message>
+        <source>Go to angle, °</source>
+        <translation>转到角度，°</translation>
+    </message>
+    <message>
+        <source>with at most, °/s</source>
+        <translation>最大角速率，°/s</translation>
+    </message>
+    <message>
+        <source>Go</source>
+        <translation>转到</translation>
+    </message>
+    <message>
+        <source>Limit by hand, °/s</source>
+        <translation>手动限速，°/s</translation>
+    </message>
+    <message>
+        <source>Angle from, °</source>
+        <translation>角度下限，°</translation>
+    </message>
+    <message>
+        <source>to, °</source>
+        <translation>角度上限，°</translation>
+    </message>
+    <message>
+        <source>no end</source>
+        <translation>无限制</translation>
+    </message>
+    <message>
+        <source>Set limits</source>
+        <translation>设置限值</translation>
+    </message>
+    <message>
+        <source>The table stops when the button is let go, and by STOP (Esc). Neither is the hardware emergency stop: keep that one within reach.</source>
+        <translation>松开按钮或按停止键（Esc）时转台停止。两者都不是硬件急停：请确保急停按钮随手可及。</translation>
     </message>
 </context>
 <context>

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 from collections.abc import Mapping
 from dataclasses import replace
+from datetime import timedelta
 from pathlib import Path
 
 import pytest
@@ -16,10 +17,11 @@ from ahrs_lab.certificates.certificate import certificate_pdf
 from ahrs_lab.certificates.content import certificate_content
 from ahrs_lab.certificates.documents import Table
 from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet
+from ahrs_lab.certificates.result_tables import ResultWriter, significant
 from ahrs_lab.certificates.richtext import number_of, text_of
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
-from ahrs_lab.metrology.result import CalibrationResult
+from ahrs_lab.metrology.result import CalibrationResult, Environment, Uncertainty
 from tests.certificates.conftest import BUNDLE_SHA256, U_B, U_K, U_L, B, K, L
 from tests.certificates.pdf_text import lines, whole_text
 
@@ -272,3 +274,113 @@ def test_deviations_follow_the_language(tmp_path: Path, result: CalibrationResul
     text = whole_text(certificate_pdf(said, job, tmp_path / "c.pdf", "bilingual"))
     assert "文件未签名" in text
     assert "The file is not signed" in text
+
+
+def test_traceability_is_claimed_only_where_the_standards_bear_it_out(
+    tmp_path: Path, result: CalibrationResult, job: JobSheet
+) -> None:
+    def said(changed: JobSheet) -> str:
+        return whole_text(certificate_pdf(result, changed, tmp_path / "c.pdf", "en"))
+
+    table, *others = job.standards
+    assert "Results are traceable through the measurement standards" in said(job)
+    named = replace(job, standards=(replace(table, traceability="NIM"), *others))
+    assert "The standards are traced through NIM." in said(named)
+    for wrong in (
+        (),
+        (replace(table, certificate_number=""), *others),
+        (replace(table, due=None), *others),
+        (replace(table, due=job.calibrated - timedelta(days=1)), *others),
+    ):
+        text = said(replace(job, standards=wrong))
+        assert "Traceability of the results is not shown" in text
+        assert "Results are traceable" not in text
+    text = said(replace(job, demonstration=True))
+    assert "its results are not traceable" in text
+    assert "Results are traceable" not in text
+
+
+def test_a_room_out_of_its_limits_stands_among_the_deviations(
+    tmp_path: Path, result: CalibrationResult, job: JobSheet
+) -> None:
+    warm = replace(result, deviations=(), environment=Environment(23.4, 0.5, 47.0, 2.0))
+    text = whole_text(certificate_pdf(warm, job, tmp_path / "c.pdf", "en"))
+    assert "Deviations from the standard None." not in text
+    assert "The room was at (23.4 ± 0.5) °C" in text
+    accepted = replace(
+        job,
+        accepted_violations=(
+            "The room was at (23.4 ± 0.5) °C; it has to stay within 17.0 °C to 23.0 °C (clause 6.2.1). "
+            "– urgent",
+        ),
+    )
+    text = whole_text(certificate_pdf(warm, accepted, tmp_path / "c.pdf", "en"))
+    assert text.count("The room was at (23.4 ± 0.5) °C") == 1
+    good = replace(result, deviations=())
+    text = whole_text(certificate_pdf(good, job, tmp_path / "c.pdf", "en"))
+    assert "Deviations from the standard None." in text
+
+
+def test_the_printed_room_holds_all_that_was_measured(
+    tmp_path: Path, result: CalibrationResult, job: JobSheet
+) -> None:
+    # 20.05 … 20.85 °C, 45.6 … 51.4 %
+    room = replace(result, environment=Environment(20.45, 0.4, 48.5, 2.9))
+    text = whole_text(certificate_pdf(room, job, tmp_path / "c.pdf", "en"))
+    found = re.search(r"temperature \(([\d.]+) ± ([\d.]+)\) °C, humidity \((\d+) ± (\d+)\)", text)
+    assert found is not None
+    t, dt, h, dh = map(float, found.groups())
+    assert t - dt <= 20.05 + 1e-9
+    assert t + dt >= 20.85 - 1e-9
+    assert h - dh <= 45.6
+    assert h + dh >= 51.4
+
+
+def test_schedules_that_differ_are_named_by_axis(
+    tmp_path: Path, result: CalibrationResult, job: JobSheet
+) -> None:
+    offsets = {
+        axis: replace(one, schedule="standard" if axis == "x" else "combined")
+        for axis, one in result.zero_offset.items()
+    }
+    path = certificate_pdf(replace(result, zero_offset=offsets), job, tmp_path / "c.pdf", "en")
+    text = whole_text(path)
+    assert "X: four positions, standard schedule" in text
+    assert "Y, Z: four positions, combined schedule" in text
+
+
+@pytest.mark.parametrize(
+    ("cycles", "words"),
+    [(0, "not the turn-on repeatability"), (5, "from 5 measurements with power off between them")],
+)
+def test_the_certificate_says_what_the_repeatability_is(
+    tmp_path: Path, result: CalibrationResult, job: JobSheet, cycles: int, words: str
+) -> None:
+    offsets = {axis: replace(one, repeatability_cycles=cycles) for axis, one in result.zero_offset.items()}
+    path = certificate_pdf(replace(result, zero_offset=offsets), job, tmp_path / "c.pdf", "en")
+    assert words in whole_text(path)
+
+
+def test_a_change_of_unit_does_not_raise_a_digit() -> None:
+    expanded = 0.015 / 3600.0
+    assert expanded * 3600.0 > 0.015  # in floats by the last bit, which "up" must not see
+    stated = Uncertainty(expanded / 2.0, expanded, 2.0, math.inf, "gum")
+    value, printed = ResultWriter("en", "up").pair(1.0 / 3600.0, stated, 3600.0)
+    assert (text_of(value.main), text_of(printed.main)) == ("1.000", "0.015")
+
+
+@pytest.mark.parametrize(
+    ("value", "printed"),
+    [(0.0996, "0.10"), (0.0994, "0.099"), (9.96, "10"), (99.6, "100"), (-0.00396, "−0.0040")],
+)
+def test_two_significant_digits_are_two(value: float, printed: str) -> None:
+    assert significant(value) == printed
+
+
+def test_counts_need_no_hint_how_to_divide(result: CalibrationResult, job: JobSheet) -> None:
+    def hints(unit: str) -> int:
+        shown = certificate_content(replace(result, device={**result.device, "rate_unit": unit}), job, "en")
+        texts = [text_of(block.text.main) for block in shown.pages[0] if hasattr(block, "text")]
+        return sum("as delivered" in text for text in texts)
+
+    assert (hints("deg/s"), hints("rad/s"), hints("LSB")) == (1, 1, 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -100,7 +101,8 @@ def test_long_texts_are_printed_whole(tmp_path: Path, result: CalibrationResult,
     text = "".join(span.text for span in spans(path)).replace(" ", "")
     assert text.count(SERIAL_40 * 3) >= 1
     assert text.count("华北分中心第二实验室") >= 6
-    assert "W" * 300 in text
+    # a page may end within the long word
+    assert sum(map(len, re.findall("W{20,}", text))) == 300
 
 
 def test_the_overlap_check_can_fail() -> None:

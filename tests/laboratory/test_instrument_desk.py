@@ -20,7 +20,7 @@ from ahrs_lab.laboratory.instrument_benches import (
     with_setting,
 )
 from ahrs_lab.laboratory.instrument_desk import InstrumentDesk, JogLimits
-from ahrs_lab.laboratory.instrument_live import AhrsLive, TableLive
+from ahrs_lab.laboratory.instrument_live import AhrsLive, TableLive, UnplugTest
 from ahrs_lab.simulation.servers.linked_toml import linked_bench
 from ahrs_lab.simulation.servers.served_bench import ServedBench, ServeSettings, serve_bench
 from ahrs_lab.simulation.settings import simulation_from_toml
@@ -272,7 +272,9 @@ def test_settings_that_the_driver_does_not_take_are_refused(tmp_path: Path, driv
         benches.with_instrument({}, "table", "acutrl", {})
 
 
-@pytest.mark.parametrize("driver", [pytest.param(one, id=f"{one.kind} {one.name}") for one in house_drivers().found.values()])
+@pytest.mark.parametrize(
+    "driver", [pytest.param(one, id=f"{one.kind} {one.name}") for one in house_drivers().found.values()]
+)
 def test_every_setting_of_every_driver_survives_the_form(driver: Driver) -> None:
     for field in setting_fields(driver):
         text = field.default if field.default not in ("", "inf", "-inf") else _some(field.kind)
@@ -296,4 +298,20 @@ def test_languages_of_tables_come_along(drivers: Drivers, tmp_path: Path) -> Non
     languages = table_languages()
     assert languages
     for template in languages.values():
-        benches.with_instrument({}, "table", "ascii", {"link": {"host": "h", "port": 1}, "template": template})
+        benches.with_instrument(
+            {}, "table", "ascii", {"link": {"host": "h", "port": 1}, "template": template}
+        )
+
+
+def test_pulling_the_plug_is_timed_from_sample_to_sample() -> None:
+    test = UnplugTest()
+    test.lost(5.0, 4.0)  # nobody has begun
+    test.begin()
+    test.arrived(10.0)  # not pulled yet
+    test.lost(11.3, 10.5)
+    test.lost(12.0, 10.5)
+    test.arrived(14.5)
+    verdict = test.verdict
+    assert verdict is not None
+    assert "0.8 s" in verdict.text()
+    assert "4.0 s" in verdict.text()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import statistics
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ahrs_lab.metrology.result import MISALIGNMENT_KEYS
+from ahrs_lab.certificates.charts import position_blocks
+from ahrs_lab.certificates.documents import Chart
+from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, ZeroOffsetResult
 from ahrs_lab.procedures.reduction import reduce_recording
 from ahrs_lab.recording.orientation import AXES
-from ahrs_lab.recording.read import read_bundle
+from ahrs_lab.recording.read import RecordedSegment, read_bundle
 from tests.procedures.virtual_unit import EARTH_DPS, VirtualUnit, changed, without
 
 SAMPLE = {
@@ -146,6 +150,43 @@ def test_multi_position_shows_the_horizontal_earth_rate_and_its_azimuth(axis: st
     assert found.earth_rate_check["amplitude_dps"] == pytest.approx(EARTH_DPS * np.cos(np.radians(30.0)))
     assert found.earth_rate_check["expected_dps"] == pytest.approx(EARTH_DPS * np.cos(np.radians(30.0)))
     assert found.earth_rate_check["phase_deg"] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("axis", AXES)
+def test_the_curve_of_the_earths_rate_runs_through_the_positions(axis: str) -> None:
+    unit = VirtualUnit(B=(1e-3, 2e-3, -3e-3), latitude_deg=30.0)
+    made = unit.azimuths(axis, 12)  # type: ignore[arg-type]
+    result = reduce_recording(unit.recording(made))
+    chart = next(block for block in position_blocks(result, "en") if isinstance(block, Chart))
+    (panel,) = chart.panels
+    azimuths, rates = zip(*panel.curve, strict=True)
+    assert np.interp(panel.x, azimuths, rates) == pytest.approx(panel.y, abs=0.02)  # °/h; its steps are 4.6°
+    assert max(rates) == pytest.approx(3600.0 * EARTH_DPS * np.cos(np.radians(30.0)), rel=1e-3)
+
+
+def _cycle(made: RecordedSegment, number: int, *, power_off: bool) -> RecordedSegment:
+    extra = {"repeat": number, "power_cycle": number if power_off else 1}
+    name = f"{made.segment.name}_r{number}"
+    return replace(made, segment=replace(made.segment, name=name, extra=extra))
+
+
+def test_repeats_with_power_off_between_give_the_repeatability() -> None:
+    offsets = (1.0e-3, 1.6e-3, 0.7e-3)
+
+    def found(*, power_off: bool) -> ZeroOffsetResult:
+        made = []
+        for number, offset in enumerate(offsets, start=1):
+            unit = VirtualUnit(B=(offset, 0.0, 0.0))
+            made += [_cycle(one, number, power_off=power_off) for one in unit.positions("x")]
+        return reduce_recording(VirtualUnit().recording(made)).zero_offset["x"]
+
+    scattered = found(power_off=True)
+    assert scattered.repeatability_dps == pytest.approx(statistics.stdev(offsets), rel=1e-9)
+    assert scattered.repeatability_cycles == 3
+    assert pytest.approx(statistics.mean(offsets), rel=1e-9) == scattered.B
+    powered = found(power_off=False)
+    assert powered.repeatability_cycles == 0
+    assert powered.repeatability_dps is None  # no noise, no Allan deviation
 
 
 def test_the_order_of_recording_does_not_matter() -> None:

@@ -32,7 +32,7 @@ from ahrs_lab.ui.run.steps_card import StepsList
 
 PICTURES = "AHRS_LAB_PICTURES"
 """Names a folder: then each phase is kept there as a picture, to be looked at by a person."""
-DEADLINE_S = 20.0
+DEADLINE_S = 60.0
 _LOOK_MS = 10
 
 _LATIN_WORD = re.compile(r"s/n|[A-Za-z][A-Za-z_.]+[A-Za-z]")
@@ -142,8 +142,15 @@ class Hands:
 
     def key(self, key: Qt.Key) -> None:
         """Press a key; it goes to whatever has the keyboard."""
+        self._have_keyboard()
         QTest.keyClick(self.front.windowHandle(), key)
         QApplication.processEvents()
+
+    def _have_keyboard(self) -> None:
+        """A window system gives the keyboard back when a menu or a list closes; the offscreen one does not
+        always."""
+        self.front.activateWindow()
+        self.until(self.front.isActiveWindow, "the keyboard")
 
     def type_into(self, name: str, text: str) -> None:
         """Click the field of this name and type; what no key of the keyboard gives comes as from an input
@@ -154,6 +161,7 @@ class Hands:
             if in_sight(f) and name in (f.accessibleName(), f.placeholderText())
         ]
         assert len(fields) == 1, f"{len(fields)} fields “{name}”:\n" + "\n".join(self.texts())
+        self._have_keyboard()
         self.click(fields[0])
         assert fields[0].hasFocus(), f"the field “{name}” does not take the keyboard"
         if text.isascii():
@@ -179,7 +187,6 @@ class Hands:
             QTest.keyClick(view, way)
         QTest.keyClick(view, Qt.Key.Key_Return)
         self.until(lambda: not view.isVisible(), "the list of choices to close")
-        self.until(combo.window().isActiveWindow, "the keyboard to come back")
         assert text in combo.currentText()
 
     def turn_to(self, tab: str) -> None:

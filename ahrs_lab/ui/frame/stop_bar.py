@@ -16,7 +16,7 @@ _ANSWER_MS = 4000
 
 
 class StopBar(QFrame):
-    """Stops the run; when nothing runs it says so."""
+    """Stops the run and what is moved by hand; when nothing runs it says so."""
 
     pressed = Signal()
 
@@ -48,7 +48,8 @@ class StopBar(QFrame):
     def stop(self) -> None:
         """Table, then supply; from the button or Esc."""
         self.pressed.emit()
-        if self._workspace.run.stop():
+        stopped = [self._workspace.run.stop(), *(one.stop() for one in self._workspace.stoppable)]
+        if any(stopped):
             self._quiet()
         else:
             self._answer = "idle"
@@ -57,7 +58,7 @@ class StopBar(QFrame):
 
     def run_is_live(self) -> bool:
         """There is something to stop."""
-        return self._workspace.run.live
+        return self._workspace.run.live or any(one.live for one in self._workspace.stoppable)
 
     def _quiet(self) -> None:
         self._answer = ""

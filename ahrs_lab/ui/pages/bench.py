@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from PySide6.QtCore import Qt
@@ -190,9 +191,9 @@ class BenchPage(Page):
             "info" if view.simulated else "good",
             self.tr("simulated") if view.simulated else self.tr("instruments"),
         )
-        self.instruments.set_value("table", view.table)
-        self.instruments.set_value("ahrs", view.ahrs)
-        self.instruments.set_value("supply", view.supply)
+        self.instruments.set_value("table", said(view.table))
+        self.instruments.set_value("ahrs", said(view.ahrs))
+        self.instruments.set_value("supply", said(view.supply))
         device = view.device
         unit = device.rate_unit.replace("deg/s", "°/s")
         self.instruments.set_value("stream", f"{number(device.sample_rate_hz, 0)} Hz, {unit}")
@@ -217,7 +218,9 @@ class BenchPage(Page):
         well = cold <= view.temperature_c <= warm and dry <= view.humidity_percent <= damp
         self.room.set_value("temperature", f"{number(view.temperature_c, 1)} °C   ({cold:g}–{warm:g})")
         self.room.set_value("humidity", f"{number(view.humidity_percent, 0)} %RH   ({dry:g}–{damp:g})")
-        if well:
+        if math.isnan(view.temperature_c):
+            self._room_chip.set_content("plain", "info", self.tr("not connected"))
+        elif well:
             self._room_chip.set_content("good", "good", self.tr("within clause 6"))
         else:
             self._room_chip.set_content("bad", "bad", self.tr("outside clause 6"))

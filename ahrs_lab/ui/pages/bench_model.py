@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
 from dataclasses import dataclass
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 from ahrs_lab.errors import InputError
 from ahrs_lab.instruments.interfaces import TableLimits
 from ahrs_lab.laboratory.benches import bench_from_text
+from ahrs_lab.messages import Message
 from ahrs_lab.recording.segment import DeviceDescription, Site
 from ahrs_lab.simulation.faults import FAULT_NAMES
 
@@ -18,9 +20,9 @@ class BenchView:
     """Identities of the instruments, what the table may do, where it stands, and its settings as written:
     (section, name, value)."""
 
-    table: str
-    ahrs: str
-    supply: str
+    table: str | Message
+    ahrs: str | Message
+    supply: str | Message
     limits: TableLimits
     device: DeviceDescription
     site: Site
@@ -32,7 +34,26 @@ class BenchView:
 
 
 def look_at(text: str) -> BenchView:
-    """Build the bench, ask who is there, let it go; raises InputError where the text is no bench."""
+    """Build the bench, ask who is there, let it go; raises InputError where the text is no bench. Real
+    instruments are not connected for that: they are described as their settings say."""
+    data = _document(text)
+    if data.get("kind") == "instruments":
+        from ahrs_lab.laboratory.supervised_bench import described_bench
+
+        found = described_bench(data, "bench")
+        return BenchView(
+            table=found.names["table"],
+            ahrs=found.names["ahrs"],
+            supply=found.names["supply"],
+            limits=found.limits,
+            device=found.device,
+            site=found.site,
+            north_deg=found.north_deg,
+            temperature_c=math.nan,
+            humidity_percent=math.nan,
+            simulated=found.simulated,
+            settings=settings_of(text),
+        )
     bench = bench_from_text(text, "bench")
     try:
         room = bench.room.read()

@@ -163,10 +163,23 @@ class RunBridge(QObject):
         self._live.abort(Message("Stopped by the operator."))
         return True
 
+    def release(self) -> None:
+        """Let the wires of an ended run's instruments go, for another run or the page Instruments. That run
+        is gone on with by starting its job again."""
+        from ahrs_lab.laboratory.linked_benches import LinkedBench
+
+        live = self._live
+        if live is not None and not self.live and isinstance(live.bench, LinkedBench):
+            self._live = None
+            live.bench.close()
+
     def close(self, timeout_s: float = 10.0) -> bool:
         """Bring the bench to a safe state and wait for it; True when the run is over."""
         self.stop()
         over = self._live is None or self._live.join(timeout_s)
         self.poll()
         self._timer.stop()
+        if over and self._live is not None:
+            self._going = False
+            self.release()
         return over

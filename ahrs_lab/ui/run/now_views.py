@@ -58,7 +58,7 @@ class MountView(Translated):
         if model.request is not None:
             self._axes.show_orientation(model.request.orientation)
         self.feels.refresh(model)
-        if model.confirmed and self.button.hasFocus():
+        if model.confirmed and self.window().focusWidget() is self.button:
             # Else Qt hands the keyboard to the next button, and another press of the space bar presses that.
             self.button.clearFocus()
         self.button.setEnabled(not model.confirmed)

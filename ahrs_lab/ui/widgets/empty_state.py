@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from ahrs_lab.ui import icons
@@ -11,7 +12,7 @@ from ahrs_lab.ui.widgets.buttons import PrimaryButton
 from ahrs_lab.ui.widgets.labels import Label
 
 _ICON = 48
-_WIDTH = 420
+_WIDTH, _NARROWEST = 420, 200
 
 
 class EmptyState(QWidget):
@@ -29,7 +30,7 @@ class EmptyState(QWidget):
         self._title = Label(role="title")
         self._text = Label(tone="muted", wrap=True)
         self._text.setAlignment(Qt.AlignmentFlag.AlignHCenter)
-        self._text.setFixedWidth(_WIDTH)
+        self.setMinimumWidth(_NARROWEST)
         self._action = PrimaryButton(large=True)
         self._action.clicked.connect(self.pressed)
         for widget in (self._icon, self._title, self._text):
@@ -43,10 +44,20 @@ class EmptyState(QWidget):
         """All of it at once; without an action there is no button."""
         self._title.setText(title)
         self._text.setText(text)
-        # A layout that centres a label does not ask it how high its lines make it.
-        self._text.setFixedHeight(self._text.heightForWidth(_WIDTH))
         self._action.setText(action)
         self._action.setVisible(bool(action))
+        self._fit_text()
+
+    def _fit_text(self) -> None:
+        """As wide as is good to read, or as there is room; a layout that centres a label does not ask it how
+        high its lines make it."""
+        margins = self.contentsMargins()
+        width = min(_WIDTH, max(_NARROWEST, self.width()) - 2 * GAP - margins.left() - margins.right())
+        self._text.setFixedSize(width, self._text.heightForWidth(width))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit_text()
+        super().resizeEvent(event)
 
     def _draw_icon(self) -> None:
         self._icon.setPixmap(icons.pixmap(self._icon_name, tokens().faint, _ICON, self.devicePixelRatioF()))

@@ -65,8 +65,8 @@ class SpinningTable:
 
 
 class AclWorld:
-    """Serves a :class:`SpinningTable` to one client at a time, as the real controller does: a second one waits
-    until the first has gone. ``said`` keeps the requests that change something, with their times."""
+    """Serves a :class:`SpinningTable` to one client at a time, as the real controller does: a second one
+    waits until the first has gone. ``said`` keeps the requests that change something, with their times."""
 
     def __init__(self) -> None:
         self.table = SpinningTable()

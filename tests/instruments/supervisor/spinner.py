@@ -1,10 +1,11 @@
 """The application that will be killed: spins the served table under a supervisor, says so, and goes on.
 
-``python spinner.py PORT REPORT``; prints ``spinning`` and the supervisor's process number.
-"""
+``python spinner.py BENCH REPORT``, BENCH the bench's tables as JSON; prints ``spinning`` and the supervisor's
+process number."""
 
 from __future__ import annotations
 
+import json
 import sys
 import time
 from pathlib import Path
@@ -15,12 +16,9 @@ from ahrs_lab.instruments.supervisor.client import Supervisor
 
 
 def main() -> None:
-    toml = {
-        "driver": "acutrol",
-        "link": {"host": "127.0.0.1", "port": int(sys.argv[1])},
-        "limits": {"max_rate_dps": 300.0, "max_acceleration_dps2": 400.0},
-    }
-    supervisor = Supervisor(toml, report=Path(sys.argv[2]))
+    bench = json.loads(sys.argv[1])
+    toml = bench["table"]
+    supervisor = Supervisor(toml, bench.get("supply"), report=Path(sys.argv[2]))
     supervisor.start()
     table = create_instrument("table", toml, Surroundings(RealClock(), supervisor.table_links))
     table.open()

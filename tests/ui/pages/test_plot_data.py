@@ -47,7 +47,8 @@ def test_without_a_latitude_only_the_offset_is_expected() -> None:
 
 def test_a_multi_position_run_shows_its_first_harmonic() -> None:
     azimuths = tuple(30.0 * i for i in range(12))
-    rates = [1.0 + 11.5 * np.cos(np.radians(a)) for a in azimuths]
+    # the axis points east at azimuth 0 and is turned to north by a quarter turn of the table
+    rates = [1.0 + 11.5 * np.sin(np.radians(a)) for a in azimuths]
     source = replace(
         sample_result().zero_offset["x"],
         B=1.0 / 3600.0,
@@ -55,7 +56,12 @@ def test_a_multi_position_run_shows_its_first_harmonic() -> None:
         azimuths_deg=azimuths,
         angles_deg=tuple(rate / 3600.0 * 1200.0 for rate in rates),
         durations_s=(1200.0,) * 12,
-        earth_rate_check={"amplitude_dps": 11.5 / 3600.0, "expected_dps": 11.5 / 3600.0, "phase_deg": 0.0},
+        earth_rate_check={
+            "amplitude_dps": 11.5 / 3600.0,
+            "expected_dps": 11.5 / 3600.0,
+            "phase_deg": 0.0,
+            "heading_at_zero_deg": 90.0,
+        },
         segments=(),
     )
     data = plot_data.positions(source, LATITUDE_DEG)

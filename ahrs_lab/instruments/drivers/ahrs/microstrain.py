@@ -42,12 +42,12 @@ class MicroStrainSettings(UnitSettings):
     def descriptors(self) -> tuple[int, ...]:
         """Fields of a packet, in order."""
         return (
+            REFERENCE_TIME,
             ACCELERATION,
             ANGULAR_RATE,
             *((EULER,) if self.attitude else ()),
             *((TEMPERATURE,) if self.temperature else ()),
             *((OVER_RANGE,) if self.over_range else ()),
-            REFERENCE_TIME,
         )
 
 

@@ -37,6 +37,9 @@ _READ_BACK = 1e-4
 _CLOSING_S = 3.0
 _CLOSING_LOOK_S = 0.1
 _REPLY_HEADER = 8
+_QUICK_S = 0.008
+"""An answer takes 2 ms on TCP."""
+_TRIES = 3
 
 
 @dataclass(frozen=True)
@@ -153,20 +156,31 @@ class AcutrolDialect:
     def read(self) -> TableReading:
         """Angle, rate and now and then the state of the interlock."""
         axis = self._settings.axis
-        request = f":Read:Pos? {axis};Rate? {axis}"
-        begin = self._clock.now_s()
-        text = self.query(request)
-        end = self._clock.now_s()
-        # What a slow line takes for the bytes is not uncertainty of the moment.
-        asked = self._talk.on_the_wire_s(len(request) + 2)
-        answered = self._talk.on_the_wire_s(len(text) + _REPLY_HEADER)
-        moment = max(begin, min(0.5 * (begin + asked + end - answered), end))
+        moment, text = self._asked_quickly(f":Read:Pos? {axis};Rate? {axis}")
         angle, rate = _numbers(text, 2)
         fault: str | Message = ""
         if self._looks % _STATUS_EVERY == 0:
             fault = self._fault()
         self._looks += 1
         return TableReading(moment, angle, rate, fault)
+
+    def _asked_quickly(self, request: str) -> tuple[float, str]:
+        """The answer and when it was true. An answer that took long, because a computer was busy, may be from
+        any moment of that time: then ask again, and keep the one that took least."""
+        best = (float("inf"), 0.0, "")
+        quick = _QUICK_S * float(getattr(self._clock, "speed", 1.0))
+        for _ in range(_TRIES):
+            begin = self._clock.now_s()
+            text = self.query(request)
+            end = self._clock.now_s()
+            # What a slow line takes for the bytes is not uncertainty of the moment.
+            asked = self._talk.on_the_wire_s(len(request) + 2)
+            answered = self._talk.on_the_wire_s(len(text) + _REPLY_HEADER)
+            moment = max(begin, min(0.5 * (begin + asked + end - answered), end))
+            best = min(best, (end - begin - asked - answered, moment, text))
+            if best[0] <= quick:
+                break
+        return best[1], best[2]
 
     def stay(self) -> None:
         """Nothing to do: the table keeps its state."""

@@ -105,13 +105,13 @@ class BenchForm(Translated):
         self._refusal.setVisible(bool(refusal))
         self._facts.setVisible(self._view is not None)
         if self._view is not None:
-            self._facts.set_value("table", self._view.table)
+            self._facts.set_value("table", said(self._view.table))
             self._facts.set_value("rate", f"{number(self._view.limits.max_rate_dps, 0)} °/s")
             self._facts.set_value(
                 "acceleration", f"{number(self._view.limits.max_acceleration_dps2, 0)} °/s²"
             )
-            self._facts.set_value("ahrs", self._view.ahrs)
-            self._facts.set_value("supply", self._view.supply)
+            self._facts.set_value("ahrs", said(self._view.ahrs))
+            self._facts.set_value("supply", said(self._view.supply))
 
     def retranslate(self) -> None:
         self.preset.set_name(self.tr("Bench"))

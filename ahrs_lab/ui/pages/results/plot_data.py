@@ -80,12 +80,13 @@ def positions(result: ZeroOffsetResult, latitude_deg: float | None) -> Positions
         azimuths = np.asarray(result.azimuths_deg, dtype=np.float64)
         check = result.earth_rate_check or {}
         amplitude = 3600.0 * check.get("amplitude_dps", 0.0)
-        phase = check.get("phase_deg", 0.0)
+        # azimuth counts anticlockwise, the heading of the axis clockwise
+        north = check.get("heading_at_zero_deg", 0.0) - check.get("phase_deg", 0.0)
         grid = np.linspace(0.0, 360.0, 181)
         labels = tuple(f"{azimuth:g}°" for azimuth in azimuths)
 
         def wave(at: Array) -> Array:
-            return np.asarray(offset + amplitude * np.cos(np.radians(at - phase)), dtype=np.float64)
+            return np.asarray(offset + amplitude * np.cos(np.radians(at - north)), dtype=np.float64)
 
         return Positions(rates, wave(azimuths), offset, labels, azimuths, (grid, wave(grid)), names)
     column = AXES.index(result.axis)

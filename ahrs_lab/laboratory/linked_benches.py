@@ -1,0 +1,271 @@
+"""Benches of real instruments, from a file of kind "instruments"::
+
+    kind = "instruments"
+    north_deg = 0.0
+    [site]
+    latitude_deg = 39.9
+    [table]
+    driver = "acutrol"
+    limits = { max_rate_dps = 400.0, max_acceleration_dps2 = 200.0 }
+    link = { host = "192.168.0.10", port = 9878 }
+    [ahrs]
+    driver = "vectornav"
+    rate_hz = 100.0
+    link = { device = "/dev/ttyUSB0", baud = 921600 }
+    [supply]
+    driver = "scpi"
+    connection = { link = { host = "192.168.0.11", port = 5025 } }
+    [room]
+    driver = "typed"
+    [operator]
+    kind = "terminal"
+
+Table, supply and room are connected at once; the AHRS when it first has to stream, because it gets its power
+from the supply. ``kind = "simulated-hands"`` (with ``host`` and ``port``) is for the bench that ``ahrs-lab
+simulate`` serves: its fixture moves by itself, and what is measured there counts as simulated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from ahrs_lab.errors import AhrsLabError, InputError
+from ahrs_lab.instruments.interfaces import Ahrs, Array, Bench, Clock, Operator
+from ahrs_lab.instruments.links.link_settings import make_link
+from ahrs_lab.instruments.real_clock import RealClock
+from ahrs_lab.instruments.registry import Drivers, Kind, LinkMaker, Surroundings, create_instrument
+from ahrs_lab.instruments.settings import settings_from_toml, within
+from ahrs_lab.laboratory.hands import SimulatedHands, TerminalOperator
+from ahrs_lab.recording.orientation import Orientation
+from ahrs_lab.recording.samples import GYRO, Samples
+from ahrs_lab.recording.segment import DeviceDescription, Site
+
+_TABLES: Final = ("site", "table", "ahrs", "supply", "room", "operator")
+_PER_DPS: Final = {"deg/s": 1.0, "rad/s": 180.0 / np.pi}
+
+
+@dataclass(frozen=True)
+class SiteSettings:
+    """Where the bench stands."""
+
+    latitude_deg: float
+    longitude_deg: float | None = None
+    altitude_m: float = 0.0
+
+    def __post_init__(self) -> None:
+        within("site.latitude_deg", self.latitude_deg, -90.0, 90.0)
+        within("site.altitude_m", self.altitude_m, -500.0, 9000.0)
+
+
+@dataclass(frozen=True)
+class OperatorSettings:
+    """Who mounts the case."""
+
+    kind: Literal["terminal", "simulated-hands"] = "terminal"
+    host: str = "127.0.0.1"
+    port: int = 0
+
+
+@dataclass(frozen=True)
+class LinkedBench(Bench):
+    """A bench of drivers. ``keep_raw`` (a folder, or None to end it) keeps what arrives from the AHRS."""
+
+    keep_raw: Callable[[Path | None], None] = field(default=lambda _: None)
+
+
+class FollowedOperator:
+    """An operator, and how the case stands since it was last mounted."""
+
+    def __init__(self, operator: Operator) -> None:
+        self._operator = operator
+        self.orientation: Orientation | None = None
+
+    def mount(self, orientation: Orientation, previous: Orientation | None) -> None:
+        """See :class:`~ahrs_lab.instruments.interfaces.Operator`."""
+        self._operator.mount(orientation, previous)
+        self.orientation = orientation
+
+    def interrupt(self) -> None:
+        """End a waiting :meth:`mount`."""
+        interrupt = getattr(self._operator, "interrupt", None)
+        if interrupt is not None:
+            interrupt()
+
+
+class FollowedAhrs:
+    """An AHRS whose rates a table set by hand is checked with."""
+
+    def __init__(self, ahrs: Any, operator: FollowedOperator) -> None:
+        self._ahrs = ahrs
+        self._operator = operator
+        self._seen: list[tuple[Array, Array]] = []
+        self.wanted = False
+
+    @property
+    def description(self) -> DeviceDescription:
+        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
+        found: DeviceDescription = self._ahrs.description
+        return found
+
+    @description.setter
+    def description(self, description: DeviceDescription) -> None:
+        self._ahrs.description = description
+
+    def identify(self) -> str:
+        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
+        return str(self._ahrs.identify())
+
+    def start(self) -> None:
+        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
+        self._ahrs.start()
+
+    def stop(self) -> None:
+        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
+        self._ahrs.stop()
+
+    def read(self) -> Samples:
+        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
+        samples: Samples = self._ahrs.read()
+        if self.wanted and len(samples):
+            self._follow(samples)
+        return samples
+
+    @property
+    def link_counts(self) -> Mapping[str, int]:
+        """See :class:`~ahrs_lab.instruments.interfaces.CountsLink`."""
+        counts: Mapping[str, int] = getattr(self._ahrs, "link_counts", {})
+        return counts
+
+    def __getattr__(self, name: str) -> Any:
+        """Counts, time relation and whatever else the driver shows."""
+        return getattr(self._ahrs, name)
+
+    def rates(self) -> tuple[Array, Array]:
+        """Bench times and rates about up (°/s) since the last call; empty where they cannot be told."""
+        self.wanted = True
+        seen, self._seen = self._seen, []
+        if not seen:
+            return np.empty(0), np.empty(0)
+        return np.concatenate([t for t, _ in seen]), np.concatenate([rate for _, rate in seen])
+
+    def _follow(self, samples: Samples) -> None:
+        orientation, scale = self._operator.orientation, _PER_DPS.get(self.description.rate_unit)
+        if orientation is None or scale is None or any(name not in samples for name in GYRO):
+            return
+        up = [{"U": 1.0, "D": -1.0}.get(letter, 0.0) for letter in orientation.letters]
+        self._seen.append((samples["host_t_s"], samples.matrix(GYRO) @ np.array(up) * scale))
+
+
+def linked_bench(
+    data: Mapping[str, Any],
+    source: str,
+    *,
+    speed: float | None = None,
+    drivers: Drivers | None = None,
+    link: LinkMaker = make_link,
+    clock: Clock | None = None,
+) -> LinkedBench:
+    """Connect the instruments of a bench file; raises InputError for its settings, InstrumentError where one
+    does not answer. ``speed`` other than 1 is refused unless the bench is a served, simulated one."""
+    unknown = [key for key in data if key not in (*_TABLES, "kind", "north_deg", "speed")]
+    if unknown:
+        raise InputError(
+            "{source}: “{key}” is not a setting of a bench of instruments.", source=source, key=unknown[0]
+        )
+    site = settings_from_toml(SiteSettings, _table(data, "site", source), "site")
+    operator_settings = settings_from_toml(OperatorSettings, data.get("operator", {}), "operator")
+    simulated = operator_settings.kind == "simulated-hands"
+    clock = clock or RealClock(_speed(data, speed, source, simulated))
+    asked = TerminalOperator()
+    hands = SimulatedHands(operator_settings.host, operator_settings.port)
+    operator = FollowedOperator(hands if simulated else asked)
+    opened: list[Any] = []
+    try:
+        ahrs = FollowedAhrs(_create("ahrs", data, source, Surroundings(clock, link), drivers), operator)
+        around = Surroundings(clock, link, ask=lambda request: asked.ask(request.message), rates=ahrs.rates)
+        opened.append(ahrs)
+        made: dict[str, Any] = {}
+        kinds: tuple[Kind, ...] = ("supply", "room", "table")
+        for kind in kinds:
+            made[kind] = _create(kind, data, source, around, drivers)
+            opened.append(made[kind])
+            if hasattr(made[kind], "open"):
+                made[kind].open()
+    except BaseException:
+        _close(opened)
+        raise
+    return LinkedBench(
+        clock=clock,
+        table=made["table"],
+        ahrs=ahrs,
+        supply=made["supply"],
+        room=made["room"],
+        operator=operator,
+        site=Site(site.latitude_deg, site.altitude_m, site.longitude_deg),
+        north_deg=_number(data, "north_deg", 0.0, source),
+        simulated=simulated,
+        close=lambda: _close(opened),
+        keep_raw=lambda folder: _keep_raw(ahrs, folder),
+    )
+
+
+def _create(
+    kind: Kind, data: Mapping[str, Any], source: str, around: Surroundings, drivers: Drivers | None
+) -> Any:
+    return create_instrument(kind, _table(data, kind, source), around, drivers)
+
+
+def _table(data: Mapping[str, Any], key: str, source: str) -> Mapping[str, Any]:
+    table = data.get(key)
+    if not isinstance(table, Mapping):
+        raise InputError("{source}: a bench of instruments needs a table [{key}].", source=source, key=key)
+    return table
+
+
+def _number(data: Mapping[str, Any], key: str, default: float, source: str) -> float:
+    value = data.get(key, default)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < 1e6:
+        raise InputError("{source}: “{key}” has to be a number.", source=source, key=key)
+    return float(value)
+
+
+def _speed(data: Mapping[str, Any], asked: float | None, source: str, simulated: bool) -> float:
+    speed = _number(data, "speed", 1.0, source) if asked is None else asked
+    if speed != 1.0 and not simulated:
+        raise InputError(
+            "{source}: real instruments keep real time; a speed of {speed} is only for simulated ones.",
+            source=source,
+            speed=speed,
+        )
+    return speed
+
+
+def _close(opened: list[Any]) -> None:
+    """Everything that was opened, the table first; what fails does not keep the others open."""
+    failures: list[AhrsLabError] = []
+    while opened:
+        try:
+            opened.pop().close()
+        except AhrsLabError as error:
+            failures.append(error)
+    if failures:
+        raise failures[0]
+
+
+def _keep_raw(ahrs: Ahrs, folder: Path | None) -> None:
+    """Raw bytes of each start of a run in a file of its own."""
+    keep = getattr(ahrs, "keep_raw", None)
+    if keep is None:
+        return
+    if folder is None:
+        keep(None)
+        return
+    number = 1
+    while (folder / f"ahrs.{number}.bin").exists():
+        number += 1
+    keep(folder / f"ahrs.{number}")

@@ -1,0 +1,2 @@
+"""The page Instruments: add, identify, configure, look at and move what a bench of real instruments is made
+of."""

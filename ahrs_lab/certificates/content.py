@@ -397,10 +397,13 @@ def _noted(words: Words, mark: int) -> Words:
 
 
 def _warnings(result: CalibrationResult, language: CertificateLanguage) -> list[Label]:
-    """Each kind of warning once; how often, and at most a dozen."""
+    """Each kind of warning once, with its first segment; how often, and at most a dozen."""
     counted: dict[str, tuple[Label, int]] = {}
     for warning in result.warnings:
-        text, count = counted.get(warning.what.text(), (_message(warning.what, language), 0))
+        said = _message(warning.what, language)
+        if warning.segment:
+            said = Label(joined(f"{Path(warning.segment).stem}: ", said.main), said.second)
+        text, count = counted.get(warning.what.text(), (said, 0))
         counted[warning.what.text()] = (text, count + 1)
     texts = [
         Label(joined(text.main, f" (×{count})"), text.second) if count > 1 else text

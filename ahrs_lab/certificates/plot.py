@@ -24,7 +24,7 @@ def nice_ticks(low: float, high: float, most: int = 5) -> tuple[float, ...]:
     power = 10.0 ** math.floor(math.log10(raw))
     step = next(power * factor for factor in (1, 2, 5, 10) if power * factor >= raw * (1 - 1e-9))
     first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
-    return tuple(i * step for i in range(first, last + 1))
+    return tuple(i * step for i in range(first, max(last, first + 1) + 1))  # two at least, for a scale
 
 
 def _tick_text(value: float, step: float) -> RichText:

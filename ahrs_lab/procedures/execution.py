@@ -133,6 +133,7 @@ class Execution:
     # operator ─────────────────────────────────────────────────────────────────────────────────────────────
 
     def _mount(self, command: Mount) -> None:
+        self._watch.tell()
         self._emit(MountRequested(command.orientation, command.previous))
         self._waiting(True)
         try:

@@ -19,6 +19,10 @@ from ahrs_lab.procedures.reduction_selection import Take, left_out, names
 from ahrs_lab.recording.orientation import AXES, Axis
 
 
+MOST_MISALIGNED = 0.5
+"""|L| from which output and axis are mixed up, rad: a small angle is what 7.3 is made for."""
+
+
 def reduce_misalignments(
     evidence: Evidence, scale_factors: Mapping[Axis, ScaleFactorResult]
 ) -> tuple[dict[str, MisalignmentResult], list[ResultWarning]]:
@@ -46,7 +50,15 @@ def reduce_misalignments(
                 needs_K = Message("its counts need the fitted scale factor, which is not there.")
                 warnings.append(left_out(Message("misalignment"), output + turned, needs_K))
                 continue
-            found[output + turned] = _result(evidence, output, turned, positive, negative, scale)
+            result = _result(evidence, output, turned, positive, negative, scale)
+            if abs(result.L) >= MOST_MISALIGNED:
+                too_large = Message(
+                    "it would be {L} rad: check which axis of the case each output belongs to.",
+                    L=round(result.L, 3),
+                )
+                warnings.append(left_out(Message("misalignment"), output + turned, too_large))
+                continue
+            found[output + turned] = result
     return {key: found[key] for key in MISALIGNMENT_KEYS if key in found}, warnings
 
 

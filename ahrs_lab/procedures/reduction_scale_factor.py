@@ -18,7 +18,7 @@ from ahrs_lab.metrology.uncertainty.noise import standard_error
 from ahrs_lab.procedures.reduction_evidence import Evidence, axis_batches
 from ahrs_lab.procedures.reduction_output import table_rate
 from ahrs_lab.procedures.reduction_selection import Take, left_out, names
-from ahrs_lab.recording.orientation import Axis
+from ahrs_lab.recording.orientation import AXES, Axis
 
 FEWEST_RATES = 7
 
@@ -56,7 +56,7 @@ def reduce_scale_factor(
         after=tuple(take for take in takes if take.segment.role == "static_after"),
     )
     missing = Message("segments are missing, see the other warnings.")
-    reason = missing if lacking else _unfit(groups)
+    reason = missing if lacking else _unfit(groups) or _shown_elsewhere(groups, axis)
     if reason is not None:
         return None, [left_out(Message("scale factor"), axis, reason)]
     warnings = [warning for take in groups.at_rates if (warning := _part_of_a_turn(take)) is not None]
@@ -88,6 +88,23 @@ def _unfit(groups: _Groups) -> Message | None:
             fewest=FEWEST_RATES,
         )
     return None
+
+
+def _shown_elsewhere(groups: _Groups, axis: Axis) -> Message | None:
+    """The output that shows the turns more than the axis's own does: cables, axes or units are mixed up."""
+    rates = np.array(groups.demanded)
+    centred = rates - rates.mean()
+    shown = {
+        other: abs(float(centred @ [take.output.mean(other) for take in groups.at_rates])) for other in AXES
+    }
+    most = max(AXES, key=lambda other: (shown[other], other == axis))
+    if most == axis:
+        return None
+    return Message(
+        "the turns about it show on output {other} more than on its own: check which axis of the case each "
+        "output belongs to.",
+        other=most.upper(),
+    )
 
 
 def _rates(evidence: Evidence, groups: _Groups) -> list[float]:

@@ -25,6 +25,9 @@ from ahrs_lab.recording.orientation import AXES, Axis, Orientation
 Array = NDArray[np.float64]
 Schedule = Literal["standard", "combined", "multi-position"]
 
+FEWEST_POWER_ONS = 3
+"""Two results that happen to agree say nothing of how far the next may be off."""
+
 SAME_DURATION = 1e-3
 """Relative difference of T between positions that is still one T."""
 
@@ -235,7 +238,7 @@ def _repeatability(
     whole = [groups for groups in repeats.values() if len(groups) == len(positions)]
     power_ons = [{_power_on(take) for takes in groups for take in takes} for groups in whole]
     apart = sum(len(known) for known in power_ons) == len(set().union(*power_ons))
-    if len(whole) >= 2 and apart and None not in set().union(*power_ons):
+    if len(whole) >= FEWEST_POWER_ONS and apart and None not in set().union(*power_ons):
         offsets = [
             zero_offset(
                 [factor * sum(take.output.dwell_angle(axis) for take in takes) for takes in groups],

@@ -268,6 +268,8 @@ class Runner:
             return
         if execution.spinning:
             execution.halt(_HALT_S)
+        self._watch.let_pass(_RATE_WINDOW_S)  # the last second is at rest: what is told of it says so
+        self._watch.tell()
         if not self._states.offer("hold"):
             return
         self._tell_state()

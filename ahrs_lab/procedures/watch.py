@@ -113,6 +113,11 @@ class Watch:
             self._next_reading = time.monotonic() + READING_INTERVAL_S
             self._on_reading(state, supply, self._bench.room.read())
 
+    def tell(self) -> None:
+        """Look, and tell what is read at once: before somebody is asked, or when the run pauses."""
+        self._next_reading = 0.0
+        self.look()
+
     def _with_table(self, samples: Samples) -> Samples:
         angle, rate = self.trace.at(samples["t_s"] + (self._offset_s or 0.0))
         return samples.with_columns({"table_angle_deg": angle, "table_rate_dps": rate})

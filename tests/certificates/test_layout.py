@@ -294,3 +294,7 @@ def test_footnotes_stay_together(tmp_path: Path, result: CalibrationResult, job:
         span.page for span in spans(path) for note in ("名称与顺序按附录", "450 不适用") if note in span.text
     }
     assert len(pages) == 1
+
+
+def test_a_scale_has_two_ticks_even_where_all_is_zero() -> None:
+    assert len(nice_ticks(0.0, 0.0)) == 2

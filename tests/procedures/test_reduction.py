@@ -189,6 +189,16 @@ def test_repeats_with_power_off_between_give_the_repeatability() -> None:
     assert powered.repeatability_dps is None  # no noise, no Allan deviation
 
 
+def test_outputs_that_belong_to_other_axes_give_no_result() -> None:
+    unit = VirtualUnit(L={"yx": 1.5, "xy": 0.4})
+    result = reduce_recording(unit.recording([*unit.rates("x"), *unit.turns("x"), *unit.turns("y")]))
+    said = " ".join(warning.what.text() for warning in result.warnings)
+    assert result.scale_factor == {}
+    assert "scale factor x is not evaluated: the turns about it show on output Y" in said
+    assert set(result.misalignment) == {"zx", "xy", "zy"}
+    assert "misalignment yx is not evaluated: it would be 1.5 rad" in said
+
+
 def test_the_order_of_recording_does_not_matter() -> None:
     unit = random_unit(np.random.default_rng(3))
     recording = unit.standard()

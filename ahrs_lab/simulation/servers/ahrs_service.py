@@ -76,8 +76,8 @@ class AhrsService:
         self._passed = 0
         self._silent_until_s = 0.0
         self._bunch = -1.0
-        self._heard = False
-        self._ticked_s = 0.0
+        self.ticked_s = 0.0
+        """Bench time up to which everything is sent."""
         self._rebooted = False
         speech.boot()
 
@@ -87,18 +87,13 @@ class AhrsService:
     def gone(self, connection: Connection) -> None:
         self._connections = [known for known in self._connections if known is not connection]
 
-    def keeps_up(self) -> bool:
-        """Whether all samples of this bench time are sent and read; before the first command nobody is known to
-        read."""
-        if self._ticked_s < self.served.now_s:
-            return False
-        for connection in self._connections:
-            connection.pump()
-        return not self._heard or all(connection.waiting == 0 for connection in self._connections)
+    @property
+    def sent_bytes(self) -> int:
+        """Taken by the system so far, for all who are connected."""
+        return sum(connection.sent_bytes for connection in self._connections)
 
     def answer(self, connection: Connection, data: bytes) -> bytes:
         """See :class:`~ahrs_lab.simulation.servers.serving.Service`."""
-        self._heard = True
         if not self.served.powered:
             return b""
         self._notice_boot(self.served.now_s)
@@ -125,7 +120,7 @@ class AhrsService:
                 self.sent_samples += len(samples)
                 self._send(self.speech.say(samples), now_s)
         self._release(now_s)
-        self._ticked_s = now_s
+        self.ticked_s = now_s
 
     def _notice_boot(self, now_s: float) -> None:
         sessions = len(self.served.world.ahrs.sessions)

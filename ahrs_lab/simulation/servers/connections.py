@@ -24,6 +24,7 @@ class Connection(Protocol):
     """One end that bytes come from and go to."""
 
     dropped_bytes: int
+    sent_bytes: int
 
     def fileno(self) -> int: ...
     def receive(self) -> bytes | None:
@@ -38,11 +39,6 @@ class Connection(Protocol):
         """Send what waits; False where the other side is gone."""
         ...
 
-    @property
-    def waiting(self) -> int:
-        """Bytes sent that the other side has not taken yet, as far as that can be seen."""
-        ...
-
     def close(self) -> None: ...
 
 
@@ -50,7 +46,7 @@ class _Buffered(ABC):
     """Bytes that wait for the wire."""
 
     def __init__(self) -> None:
-        self.dropped_bytes = 0
+        self.dropped_bytes = self.sent_bytes = 0
         self._out = bytearray()
 
     def send(self, data: bytes) -> None:
@@ -69,6 +65,7 @@ class _Buffered(ABC):
             except OSError as error:
                 # EIO: a pseudo-terminal nobody has open
                 return error.errno in (errno.EAGAIN, errno.EIO)
+            self.sent_bytes += sent
             del self._out[:sent]
         return True
 
@@ -116,17 +113,6 @@ class PtyConnection(_Buffered):
         names = (name for name in dir(termios) if name.startswith("B") and name[1:].isdecimal())
         return next((int(name[1:]) for name in names if getattr(termios, name) == code), 0)
 
-    @property
-    def waiting(self) -> int:
-        """See :class:`Connection`."""
-        import array
-        import fcntl
-        import termios
-
-        unread = array.array("i", [0])
-        fcntl.ioctl(self._slave, termios.FIONREAD, unread)
-        return len(self._out) + unread[0]
-
     def close(self) -> None:
         os.close(self._master)
         os.close(self._slave)
@@ -154,11 +140,6 @@ class TcpConnection(_Buffered):
             return b""
         except OSError:
             return None
-
-    @property
-    def waiting(self) -> int:
-        """See :class:`Connection`; what the system holds for the other side is not seen."""
-        return len(self._out)
 
     def close(self) -> None:
         self._peer.close()

@@ -318,12 +318,13 @@ def _methods(
     blocks += [Paragraph(text, together=True) for text in deviations] or [
         Paragraph(label(wording.NO_DEVIATIONS, language), together=True)
     ]
+    use = [wording.USE_TEXT]
+    if result.device.get("rate_unit") != "LSB":  # counts are scaled by K before B and L are formed
+        use.append(wording.USE_AS_DELIVERED)
     blocks += [
         Heading(label(wording.USE, language)),
-        Paragraph(_with_mark(label(wording.USE_TEXT, language), "4"), together=True),
+        Paragraph(_with_mark(label(_run_on(use), language), "4"), together=True),
     ]
-    if result.device.get("rate_unit") != "LSB":  # counts are scaled by K before B and L are formed
-        blocks.append(Paragraph(label(wording.USE_AS_DELIVERED, language), together=True))
     remarks = [_message(message, language) for message in mismatches]
     remarks += [same(note) for note in job.notes]
     remarks += _warnings(result, language)
@@ -369,15 +370,22 @@ def _uncertainty_statement(result: CalibrationResult, job: JobSheet) -> tuple[Wo
     if job.rounding == "up":
         statements.append(wording.ROUNDED_UP)
     if result.zero_offset:
-        statements.append(wording.MEANING_OF_B)
+        meaning = [wording.MEANING_OF_B]
         known = [one for one in result.zero_offset.values() if one.repeatability_dps is not None]
         if any(not one.repeatability_cycles for one in known):
-            statements.append(wording.REPEATABILITY_BY_ALLAN)
-        statements += [
+            meaning.append(wording.REPEATABILITY_BY_ALLAN)
+        meaning += [
             wording.REPEATABILITY_BY_CYCLES.filled(count=count)
             for count in sorted({one.repeatability_cycles for one in known} - {0})
         ]
+        statements.append(_run_on(meaning))
     return (*statements, *_traceability(result, job))
+
+
+def _run_on(sentences: Iterable[Words]) -> Words:
+    """One paragraph of several."""
+    said = tuple(sentences)
+    return Words("".join(one.zh for one in said), " ".join(one.en for one in said))
 
 
 def _traceability(result: CalibrationResult, job: JobSheet) -> tuple[Words, ...]:

@@ -184,10 +184,9 @@ USE_TEXT = Words(
     "where N are the output angles scaled to degrees by the scale factor, A the input angles and T the time.",
 )
 USE_AS_DELIVERED = Words(
-    "B、L 由未除以标度因数的输出角得出；N 除以标度因数后，B 及 L 中该输出轴的一行也应除以该轴的标度因数"
-    "（化为无量纲）。",
-    "B and L come from output angles as delivered, not divided by the scale factor: where N has been divided "
-    "by it, divide B and the row of L of that output axis by the same factor (made dimensionless).",
+    "B、L 得自未除以标度因数的输出；N 除以标度因数（化为无量纲）后，B 和 L 的相应行也须除以它。",
+    "B and L are of the output as delivered: where N has been divided by the (dimensionless) scale factor, "
+    "divide B and the row of L by it too.",
 )
 
 # Footnotes: where the print of the standard cannot be followed literally

@@ -11,18 +11,24 @@ from ahrs_lab.procedures.plan import Plan, plan_from_toml
 from ahrs_lab.recording.toml_table import parse_toml
 from ahrs_lab.resource_files import resource_path
 
+_LARGEST_FILE = 1_000_000
+
 
 def load_bench(path: Path, *, speed: float | None = None) -> Bench:
     """The bench of ``BENCH.toml``; ``speed`` is bench time over wall time of a simulated one (None: no
     waiting)."""
     try:
-        text = path.read_text(encoding="utf-8")
+        with path.open("rb") as file:
+            data = file.read(_LARGEST_FILE + 1)
+        text = data.decode("utf-8-sig")
     except OSError as error:
         raise InputError(
             "The bench file {path} cannot be read ({reason}).", path=path, reason=error.strerror or str(error)
         ) from error
     except UnicodeDecodeError as error:
         raise InputError("The bench file {path} is not UTF-8 text.", path=path) from error
+    if len(data) > _LARGEST_FILE:
+        raise InputError("The bench file {path} is too large for one: check its path.", path=path)
     return bench_from_text(text, str(path), speed=speed)
 
 

@@ -22,7 +22,7 @@ from ahrs_lab.laboratory.home import home_folder
 from ahrs_lab.laboratory.settings import Settings
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.result import CalibrationResult
-from ahrs_lab.metrology.result_json import from_json, to_json
+from ahrs_lab.metrology.result_json import from_json_text, to_json
 from ahrs_lab.procedures.plan import Plan
 from ahrs_lab.recording.samples import Samples
 from ahrs_lab.records.rows import (
@@ -216,7 +216,7 @@ class Laboratory:
     def result(self, number: str) -> CalibrationResult | None:
         """The current result, or None before there is one."""
         rows = self.records.jobs.results(number)
-        return from_json(json.loads(rows[-1].json)) if rows else None
+        return from_json_text(rows[-1].json) if rows else None
 
     def segment_samples(self, number: str, file: str) -> Samples:
         """The raw samples of one segment file of the job's recording."""

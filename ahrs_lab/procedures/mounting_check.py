@@ -82,10 +82,13 @@ def _felt_up(samples: Samples) -> tuple[Array | None, Literal["accelerometer", "
 
 
 def up_from_attitude(pitch_deg: Array, roll_deg: Array) -> Array:
-    """Shape (n, 3): up in case axes (x right, y forward, z up; annex B): the third column of
-    ``R_y(γ)·R_x(θ)·R_z(ψ)`` with pitch nose up and roll right side down positive."""
+    """Shape (n, 3): up in case axes: the third column of ``R_y(γ)·R_x(θ)·R_z(ψ)`` (annex B: right, forward, up),
+    pitch nose up and roll right side down positive.
+
+    By the standard's tie of axes and angles X is up (heading), Y right (pitch), Z forward (roll).
+    """
     pitch, roll = np.radians(pitch_deg), np.radians(roll_deg)
-    return np.column_stack([-np.sin(roll) * np.cos(pitch), np.sin(pitch), np.cos(roll) * np.cos(pitch)])
+    return np.column_stack([np.cos(roll) * np.cos(pitch), -np.sin(roll) * np.cos(pitch), np.sin(pitch)])
 
 
 def _face(up: Array) -> str:

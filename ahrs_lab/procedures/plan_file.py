@@ -16,6 +16,8 @@ from ahrs_lab.procedures.plan_rules import check_plan
 from ahrs_lab.procedures.plan_settings import STANDARD_DURATION_S, Plan
 from ahrs_lab.recording.toml_table import parse_toml
 
+_LARGEST_FILE = 1_000_000
+
 
 def plan_from_text(text: str, source: str) -> Plan:
     """A checked plan from TOML text; ``source`` names it in what InputError says."""
@@ -32,7 +34,9 @@ def plan_from_text(text: str, source: str) -> Plan:
 def load_plan(path: Path) -> Plan:
     """Read and check a plan; raises InputError that names the file, the setting and what to change."""
     try:
-        text = path.read_text(encoding="utf-8")
+        with path.open("rb") as opened:
+            data = opened.read(_LARGEST_FILE + 1)
+        text = data.decode("utf-8-sig")
     except FileNotFoundError as error:
         raise InputError("The plan {file} does not exist: check its path.", file=str(path)) from error
     except UnicodeDecodeError as error:
@@ -45,6 +49,8 @@ def load_plan(path: Path) -> Plan:
             file=str(path),
             reason=error.strerror or str(error),
         ) from error
+    if len(data) > _LARGEST_FILE:
+        raise InputError("The plan {file} is too large for a plan: check its path.", file=str(path))
     return plan_from_text(text, str(path))
 
 

@@ -18,7 +18,6 @@ from ahrs_lab.procedures.reduction_output import degrees_factor
 from ahrs_lab.procedures.reduction_selection import Take, left_out, names
 from ahrs_lab.recording.orientation import AXES, Axis
 
-
 MOST_MISALIGNED = 0.5
 """|L| from which output and axis are mixed up, rad: a small angle is what 7.3 is made for."""
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from sqlalchemy import URL, Connection, Engine, create_engine, event, insert, inspect, select, text
-from sqlalchemy.exc import DatabaseError, IntegrityError, OperationalError
+from sqlalchemy.exc import DatabaseError, IntegrityError, NoResultFound, OperationalError
 from sqlalchemy.pool import NullPool
 
 from ahrs_lab.errors import InputError, MachineError
@@ -87,7 +87,11 @@ class Records:
     def reading(self) -> Iterator[Connection]:
         """A consistent look."""
         with said_plainly(self.path), self._engine.connect() as connection:
-            yield connection
+            try:
+                yield connection
+            except (NoResultFound, ValueError) as error:
+                # A row that points nowhere, a text that is none: nothing in here writes such.
+                raise _damaged(self.path, error) from error
 
 
 def _for_the_owner_only(path: Path) -> None:
@@ -102,6 +106,8 @@ def said_plainly(path: Path) -> Iterator[None]:
     """What SQLite refuses, in words for a person."""
     try:
         yield
+    except UnicodeDecodeError as error:  # of a name in the database's own schema
+        raise _damaged(path, error) from error
     except OperationalError as error:
         raise MachineError(
             "The records {path} cannot be used ({reason}). Close other programs that hold them and see that "
@@ -114,9 +120,13 @@ def said_plainly(path: Path) -> Iterator[None]:
             raise InputError("{path} is not a database of records.", path=path) from error
         if isinstance(error, IntegrityError):
             raise
-        raise InputError(
-            "The records {path} are damaged ({reason}): restore a backup.", path=path, reason=str(error.orig)
-        ) from error
+        raise _damaged(path, error.orig) from error
+
+
+def _damaged(path: Path, reason: object) -> InputError:
+    return InputError(
+        "The records {path} are damaged ({reason}): restore a backup.", path=path, reason=str(reason)
+    )
 
 
 def _engine(path: Path) -> Engine:

@@ -32,6 +32,10 @@ _ON_TIME: Final = 1e-6
 _FAULTY_LOSS: Final = 0.1
 _ANGLE_STEP_DEG: Final = 2.0**-36
 
+_RIGHT_FORWARD_UP = [1, 2, 0]
+"""The case axes that attitude angles are of: Y right (pitch), Z forward (roll), X up (heading), as the standard
+ties them."""
+
 
 class SimulatedAhrs:
     """An :class:`~ahrs_lab.instruments.interfaces.Ahrs`. It streams while it has power, after its boot time;
@@ -204,7 +208,8 @@ class SimulatedAhrs:
             a, b = np.searchsorted(times_s, (start, stop))
             if b > a:
                 angles = piece.angles(times_s[a : a + 1] if piece.at_rest else times_s[a:b])
-                heading[a:b], pitch[a:b], roll[a:b] = attitude_angles_deg(case.attitude(angles))
+                body = case.attitude(angles)[..., _RIGHT_FORWARD_UP]
+                heading[a:b], pitch[a:b], roll[a:b] = attitude_angles_deg(body)
         age_h = (times_s - self.sessions[-1].started_s) / 3600.0
         heading += errors.heading_offset_deg + errors.heading_drift_deg_per_h * age_h
         pitch += errors.pitch_offset_deg

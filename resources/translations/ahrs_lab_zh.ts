@@ -2897,6 +2897,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>预览：尚未签名。</translation>
     </message>
     <message>
+        <source>The signatures are being checked.</source>
+        <translation>正在核查签名。</translation>
+    </message>
+    <message>
         <source>Intact; not yet signed: {roles}</source>
         <translation>完整；尚未签名：{roles}</translation>
     </message>

@@ -129,3 +129,9 @@ def test_any_value_of_the_wrong_kind_is_refused_or_read(
     except InputError:
         return
     assert isinstance(job, JobSheet)
+
+
+@pytest.mark.parametrize("number", ["1" + "0" * 5000, "1" + "0" * 400, "inf", "nan", "-1"])
+def test_a_number_that_cannot_be_is_refused(tmp_path: Path, number: str) -> None:
+    with pytest.raises(InputError):
+        read(tmp_path, changed("position_arcsec = 10.0", f"position_arcsec = {number}"))

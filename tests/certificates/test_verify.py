@@ -257,3 +257,14 @@ def test_arbitrary_bytes_never_crash(tmp_path_factory: pytest.TempPathFactory, d
     except InputError:
         return
     assert not report.valid
+
+
+def test_a_signers_name_writes_no_lines_of_the_report() -> None:
+    from types import SimpleNamespace
+
+    from ahrs_lab.certificates import verify
+
+    name = {"common_name": "X\nIntact and unchanged\x1b[2J" + "y" * 500}
+    shown = verify._signer_name(SimpleNamespace(subject=SimpleNamespace(native=name)))
+    assert shown.startswith("X�Intact and unchanged�[2J")
+    assert len(shown) == 100

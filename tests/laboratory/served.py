@@ -28,7 +28,7 @@ from tests.laboratory.short_run import write_bench
 _SPEED = 20.0
 _LOOK_S = 2e-4
 _DELIVERY_S = 0.2
-_STEP_S = 0.04
+_STEP_S = 0.06
 """Bench time between two looks at the table."""
 
 
@@ -82,12 +82,13 @@ def _linked(
 
 class _Delivery:
     """Whether the unit's bytes have reached the driver. What the system drops when a port is opened is not
-    known, so the least difference ever seen counts as nothing under way; after a while of waiting, this one."""
+    known, so the least difference since then counts as nothing under way; after a while, any."""
 
     def __init__(self, bench: ServedBench, ahrs: Any) -> None:
         self._unit = bench.ahrs
         self._served = bench.served
         self._reader = ahrs._reader
+        self._connections = 0
         self._least = 0
         self._since = time.monotonic()
 
@@ -96,7 +97,9 @@ class _Delivery:
             return False
         under_way = self._unit.sent_bytes - self._reader.received_bytes
         now = time.monotonic()
-        if under_way <= self._least or now - self._since > _DELIVERY_S:
+        opened = self._reader.connections != self._connections or self._reader.lost is not None
+        if under_way <= self._least or opened or not self._connections or now - self._since > _DELIVERY_S:
+            self._connections = self._reader.connections
             self._least, self._since = under_way, now
             return True
         return False

@@ -150,7 +150,7 @@ def test_a_wire_that_is_pulled_and_put_back_is_recovered_with_the_gap_in_the_tim
 
 
 def test_a_wrong_baud_rate_is_told(tmp_path: Path) -> None:
-    with served(steady_bench(tmp_path), "vectornav", "baud=115200", boot_time_s=1.5) as (_, linked):
+    with served(steady_bench(tmp_path), "vectornav", "baud=115200", boot_time_s=1.2) as (_, linked):
         linked.supply.set_output(12.0, 1.0)
         linked.supply.on()
         with pytest.raises(InstrumentError, match=r"made no frame: check the baud rate"):

@@ -64,18 +64,19 @@ def test_up_follows_from_pitch_and_roll_as_annex_b_defines_them(
 ) -> None:
     # (B.1) with heading clockwise: intrinsic Z, X, Y by (−ψ, θ, γ), from case to east-north-up
     to_enu = Rotation.from_euler("ZXY", [-heading, pitch, roll], degrees=True)
-    expected = to_enu.inv().apply([0.0, 0.0, 1.0])
+    right, forward, upward = to_enu.inv().apply([0.0, 0.0, 1.0])
+    expected = [upward, right, forward]  # X heading, Y pitch, Z roll
     assert up_from_attitude(np.array([pitch]), np.array([roll]))[0] == pytest.approx(expected, abs=1e-12)
 
 
 @pytest.mark.parametrize(
-    ("pitch", "roll", "face"), [(0, 0, "z+"), (0, 180, "z-"), (90, 0, "y+"), (0, 90, "x-"), (0, -90, "x+")]
+    ("pitch", "roll", "face"), [(0, 0, "x+"), (0, 180, "x-"), (90, 0, "z+"), (0, 90, "y-"), (0, -90, "y+")]
 )
 def test_without_accelerometers_the_attitude_output_tells(pitch: float, roll: float, face: str) -> None:
     samples = Samples({"pitch_deg": np.full(9, float(pitch)), "roll_deg": np.full(9, float(roll))})
-    finding = judge(samples, "ENU")
+    finding = judge(samples, "UEN")
     assert (finding.feels, finding.by) == (face, "attitude")
-    assert finding.accepted == (face == "z+")
+    assert finding.accepted == (face == "x+")
 
 
 def test_where_nothing_can_be_felt_the_operators_word_is_taken_and_said_so() -> None:

@@ -230,7 +230,7 @@ def test_a_tilt_of_more_than_five_degrees_at_rest_is_unusable(
 def test_without_accelerometers_the_attitude_output_tells_the_mounting(tmp_path: Path) -> None:
     made = columns(30.0, "ENU")
     kept = {name: column for name, column in made.items() if not name.startswith("accel")}
-    # Body x right, y forward, z up: right side down by 90° has x pointing down.
+    # X heading, Y pitch, Z roll: right side down by 90° has Y pointing down.
     kept |= {
         name: np.full(1500, angle)
         for name, angle in (("heading_deg", 0.0), ("pitch_deg", 0.0), ("roll_deg", 90.0))
@@ -238,14 +238,19 @@ def test_without_accelerometers_the_attitude_output_tells_the_mounting(tmp_path:
     entry = take("zo_x_1")
     entry.lines = csv_lines(kept)
     _, findings = read_one(tmp_path / "b", entry)
-    assert [(finding.kind, finding.what.params["up"]) for finding in findings] == [("orientation", "x-")]
+    assert [(finding.kind, finding.what.params["up"]) for finding in findings] == [("orientation", "y-")]
     assert findings[0].what.params["tilt"] == 90.0
 
 
 def test_attitude_output_that_agrees_is_no_finding(tmp_path: Path) -> None:
     made = columns(30.0, "ENU")
     kept = {name: column for name, column in made.items() if not name.startswith("accel")}
-    kept |= {name: np.full(1500, 0.5) for name in ("heading_deg", "pitch_deg", "roll_deg")}
+    # zo_x_1 has Z up and X east: nose (Z) straight up, where only pitch counts.
+    kept |= {
+        "heading_deg": np.full(1500, 0.0),
+        "pitch_deg": np.full(1500, 89.5),
+        "roll_deg": np.full(1500, 0.0),
+    }
     entry = take("zo_x_1")
     entry.lines = csv_lines(kept)
     assert read_one(tmp_path / "b", entry)[1] == ()

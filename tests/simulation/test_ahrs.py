@@ -180,14 +180,14 @@ def test_accumulated_angle_is_the_integral_since_start() -> None:
     assert samples[ANGLE[0]][-1] == pytest.approx(turned + EARTH_UP_DPS * 37.0, abs=1e-8)
 
 
-@pytest.mark.parametrize("letters", ["ENU", "WSU", "NWU"])
+@pytest.mark.parametrize("letters", ["UEN", "UWS", "UNW"])
 def test_attitude_output_is_the_attitude(letters: str) -> None:
     bench = ready(_device(outputs=("attitude",)), letters)
     bench.table.move_to(30.0, 50.0)
     samples = after(bench, 5.0).rows(-1)
     assert GYRO[0] not in samples
     heading, pitch, roll = (float(samples[name][0]) for name in ATTITUDE)
-    expected = {"ENU": 330.0, "WSU": 150.0, "NWU": 240.0}[letters]
+    expected = {"UEN": 330.0, "UWS": 150.0, "UNW": 240.0}[letters]
     assert heading == pytest.approx(expected, abs=1e-9)
     assert pitch == pytest.approx(0.0, abs=1e-9)
     assert roll == pytest.approx(0.0, abs=1e-9)
@@ -197,7 +197,8 @@ def test_attitude_output_is_the_attitude(letters: str) -> None:
 def test_attitude_output_tells_every_orientation(orientation: Orientation) -> None:
     samples = after(ready(_device(outputs=("attitude",)), orientation.letters), 0.1)
     angles = [float(samples[name][-1]) for name in ATTITUDE]
-    np.testing.assert_allclose(attitude_matrix(*angles), orientation.matrix, atol=1e-12)
+    right_forward_up = orientation.matrix[:, [1, 2, 0]]  # Y pitch, Z roll, X heading
+    np.testing.assert_allclose(attitude_matrix(*angles), right_forward_up, atol=1e-12)
 
 
 def test_attitude_errors_stay_in_range() -> None:

@@ -174,7 +174,9 @@ class CertificatePage(Page):
         may_send_back = self._job.state == "checked" and actor is not None and "approver" in actor.roles
         self.send_back.setVisible(may_send_back)
         self.save_button.setEnabled(signed)
-        if not signed:
+        if signed:
+            self.verdict.show_checking()  # never the verdict on the file before
+        else:
             self.verdict.show_unsigned()
 
     def _chosen_language(self) -> CertificateLanguage:

@@ -34,11 +34,18 @@ class VerdictCard(Card):
         self._button.setVisible(False)
         self._replace([("info", self.tr("A preview: nothing is signed yet."))])
 
+    def show_checking(self) -> None:
+        """A signed file whose report is not there yet."""
+        self._name()
+        self._button.setVisible(False)
+        self._replace([("info", self.tr("The signatures are being checked."))])
+
     def show_report(self, report: VerificationReport) -> None:
         """Every statement with its mark, never colour alone."""
         self._name()
         self._button.setVisible(True)
-        lines = [("good" if report.intact else "bad", self._summary(report))]
+        state = "good" if report.valid else "warn" if report.intact else "bad"
+        lines = [(state, self._summary(report))]
         if report.changed_since is not None:
             lines.append(("bad", said(report.changed_since)))
         # Who signed when stands beside each signature already; here only what is wrong with one.

@@ -207,7 +207,7 @@ class _TaskPanel(Panel):
         self.body.addWidget(ElidedLabel(shown_name(job.customer, language()), tone="muted"))
         foot = QHBoxLayout()
         foot.addWidget(
-            Label(self.tr("received {date}").format(date=job.received.isoformat()), tone="muted"), 1
+            ElidedLabel(self.tr("received {date}").format(date=job.received.isoformat()), tone="muted"), 1
         )
         self.button = SecondaryButton(_action_words()[task.action])
         foot.addWidget(self.button)

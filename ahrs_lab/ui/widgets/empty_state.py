@@ -53,6 +53,7 @@ class EmptyState(QWidget):
         high its lines make it."""
         margins = self.contentsMargins()
         width = min(_WIDTH, max(_NARROWEST, self.width()) - 2 * GAP - margins.left() - margins.right())
+        self._text.setMinimumSize(0, 0)  # else the height of before is the least that it asks for
         self._text.setFixedSize(width, self._text.heightForWidth(width))
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -152,6 +152,12 @@ def test_the_signed_file_is_saved_as_it_is(
     assert screens.notices[-1][0] == "bad"
 
 
+def test_a_signed_file_is_not_called_a_preview_before_it_is_checked(screens: Screens, qtbot: QtBot) -> None:
+    open_certificate(screens, qtbot, "issued")
+    screens.certificate._show_signing()
+    assert screens.certificate.verdict.texts() == ["The signatures are being checked."]
+
+
 def test_an_unsigned_certificate_cannot_be_saved(screens: Screens, qtbot: QtBot) -> None:
     open_certificate(screens, qtbot, "measured")
     assert not screens.certificate.save_button.isEnabled()

@@ -1,3 +1,3 @@
-"""Calibration of attitude and heading reference systems to JJF 1536-2015, from the bench to the certificate."""
+"""Calibration of attitude and heading reference systems to JJF 1536-2015, from bench to certificate."""
 
 __version__ = "0.1.0"

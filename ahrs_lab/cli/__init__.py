@@ -156,7 +156,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         from ahrs_lab.cli import commands
 
-        return commands.run(arguments)
+        code = commands.run(arguments)
+        sys.stdout.flush()
+        return code
     except AhrsLabError as error:
         sys.stderr.write(f"ahrs-lab: {_one_line(error.message.text())}\n")
         return error.exit_code
@@ -167,5 +169,17 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stderr.write("ahrs-lab: interrupted\n")
         return INTERRUPTED
     except BrokenPipeError:  # whoever read our output has gone; nothing is wrong
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _forget_output()
         return 0
+    except OSError as error:  # what no room expected: standard output on a full disk, say
+        _forget_output()
+        where = _one_line(f"{error.filename}: " if error.filename else "")
+        sys.stderr.write(
+            f"ahrs-lab: {where}{error.strerror or error}. See that the disk is writable and not full.\n"
+        )
+        return AhrsLabError.exit_code
+
+
+def _forget_output() -> None:
+    """What is left of it would be written when Python ends, and fail once more."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -7,7 +7,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -113,26 +113,55 @@ def _fill(laboratory: Laboratory) -> None:
 
 def _standards(today: date) -> tuple[StandardRow, ...]:
     due = today.replace(day=1) + timedelta(days=300)
-    return (
+    rows = (
         StandardRow(
-            0, "table", "Single-axis position and rate table", "单轴位置速率转台", "Demonstration", "ST-1000", "T-0007",
-            "U_rel = 2×10^{−4}, (10–1000) °/s, k = 2; U = 10″, k = 2",
-            "U_rel = 2×10^{−4}，(10～1000) °/s，k = 2；U = 10″，k = 2", "DEMO-26-0815", due, "Demonstration",
+            0,
+            "table",
+            "Single-axis position and rate table",
+            "单轴位置速率转台",
+            model="ST-1000",
+            serial_number="T-0007",
+            accuracy="U_rel = 2×10^{−4}, (10–1000) °/s, k = 2; U = 10″, k = 2",
+            accuracy_zh="U_rel = 2×10^{−4}，(10～1000) °/s，k = 2；U = 10″，k = 2",
+            certificate_number="DEMO-26-0815",
         ),
         StandardRow(
-            0, "supply", "Linear DC supply", "线性直流电源", "Demonstration", "PS-30", "P-0113",
-            "U_rel = 2×10^{−3}, k = 2; ripple 0.3 mV", "U_rel = 2×10^{−3}，k = 2；纹波 0.3 mV", "DEMO-26-0816", due,
-            "Demonstration",
+            0,
+            "supply",
+            "Linear DC supply",
+            "线性直流电源",
+            model="PS-30",
+            serial_number="P-0113",
+            accuracy="U_rel = 2×10^{−3}, k = 2; ripple 0.3 mV",
+            accuracy_zh="U_rel = 2×10^{−3}，k = 2；纹波 0.3 mV",
+            certificate_number="DEMO-26-0816",
         ),
         StandardRow(
-            0, "fixture", "Mounting fixture", "安装夹具", "Demonstration", "FX-6", "F-0021", "perpendicularity < 5″",
-            "垂直度 < 5″", "DEMO-26-0821", due, "Demonstration",
+            0,
+            "fixture",
+            "Mounting fixture",
+            "安装夹具",
+            model="FX-6",
+            serial_number="F-0021",
+            accuracy="perpendicularity < 5″",
+            accuracy_zh="垂直度 < 5″",
+            certificate_number="DEMO-26-0821",
         ),
         StandardRow(
-            0, "room", "Thermo-hygrometer", "温湿度计", "Demonstration", "TH-2", "H-0104", "U = 0.3 °C, 2 %RH, k = 2",
-            "U = 0.3 °C，2 %RH，k = 2", "DEMO-26-0830", due, "Demonstration",
+            0,
+            "room",
+            "Thermo-hygrometer",
+            "温湿度计",
+            model="TH-2",
+            serial_number="H-0104",
+            accuracy="U = 0.3 °C, 2 %RH, k = 2",
+            accuracy_zh="U = 0.3 °C，2 %RH，k = 2",
+            certificate_number="DEMO-26-0830",
         ),
-    )  # fmt: skip
+    )
+    return tuple(
+        replace(row, manufacturer="Demonstration", traceability="Demonstration", due=due) for row in rows
+    )
 
 
 def _draft(laboratory: Laboratory, plan: str, people: tuple[int, int, int], plan_toml: str = "") -> JobDraft:

@@ -82,8 +82,8 @@ def _felt_up(samples: Samples) -> tuple[Array | None, Literal["accelerometer", "
 
 
 def up_from_attitude(pitch_deg: Array, roll_deg: Array) -> Array:
-    """Shape (n, 3): up in case axes: the third column of ``R_y(γ)·R_x(θ)·R_z(ψ)`` (annex B: right, forward, up),
-    pitch nose up and roll right side down positive.
+    """Shape (n, 3): up in case axes: the third column of ``R_y(γ)·R_x(θ)·R_z(ψ)`` (annex B: right, forward,
+    up), pitch nose up and roll right side down positive.
 
     By the standard's tie of axes and angles X is up (heading), Y right (pitch), Z forward (roll).
     """

@@ -22,7 +22,8 @@ _GRAVITY = {"m/s^2": 9.80665, "g": 1.0}
 
 def up_by_attitude(samples: Samples) -> Array:
     """Shape (3,): mean direction of up in case axes (x up, y right, z forward: the standard's tie of axes and
-    angles) by pitch θ and roll γ: (cos γ·cos θ, −sin γ·cos θ, sin θ), from the third column of C_n^b (annex B)."""
+    angles) by pitch θ and roll γ: (cos γ·cos θ, −sin γ·cos θ, sin θ), from the third column of C_n^b (annex
+    B)."""
     pitch, roll = np.radians(samples["pitch_deg"]), np.radians(samples["roll_deg"])
     up = (np.cos(roll) * np.cos(pitch), -np.sin(roll) * np.cos(pitch), np.sin(pitch))
     return np.array([np.nanmean(component) for component in up])

@@ -33,8 +33,8 @@ _FAULTY_LOSS: Final = 0.1
 _ANGLE_STEP_DEG: Final = 2.0**-36
 
 _RIGHT_FORWARD_UP = [1, 2, 0]
-"""The case axes that attitude angles are of: Y right (pitch), Z forward (roll), X up (heading), as the standard
-ties them."""
+"""The case axes that attitude angles are of, as the standard ties them: Y right (pitch), Z forward (roll),
+X up (heading)."""
 
 
 class SimulatedAhrs:

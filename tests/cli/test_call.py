@@ -78,3 +78,22 @@ def test_a_name_from_a_file_keeps_the_complaint_on_one_line(
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert "\x1b" not in said
+
+
+WRITES = """
+import sys
+from ahrs_lab import cli
+from ahrs_lab.cli import commands
+commands.run = lambda arguments: print("a result") or 0
+sys.exit(cli.main([]))
+"""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no such device")
+def test_output_that_the_disk_does_not_take_is_said_in_one_line() -> None:
+    with Path("/dev/full").open("wb") as full:
+        command = [sys.executable, "-c", WRITES]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False)
+    assert done.returncode == 3
+    assert done.stderr.count(b"\n") == 1
+    assert b"not full" in done.stderr

@@ -8,6 +8,7 @@ import sys
 import tomllib
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import pyarrow as pa
 import pytest
@@ -58,9 +59,9 @@ def test_a_header_with_such_a_number_is_refused(tmp_path: Path) -> None:
         ({"role": "turns", "item": "misalignment", "turns": 10**15}, "“turns”"),
     ],
 )
-def test_no_table_turns_so_fast_or_so_often(tmp_path: Path, keys: dict[str, object], words: str) -> None:
+def test_no_table_turns_so_fast_or_so_often(tmp_path: Path, keys: dict[str, Any], words: str) -> None:
     with pytest.raises(InputError, match=words):
-        read_bundle(write_bundle(tmp_path / "bundle", [take("one", **keys)]))
+        read_bundle(write_bundle(tmp_path / "bundle", [take("one", 30.0, **keys)]))
 
 
 def test_a_file_name_cannot_drive_the_terminal(tmp_path: Path) -> None:

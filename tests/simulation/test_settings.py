@@ -14,7 +14,11 @@ from ahrs_lab.simulation.bench import build_bench, world_of
 from ahrs_lab.simulation.presets import GRADES, TABLES, demonstration, sensor_preset
 from ahrs_lab.simulation.settings import SimulationSettings, simulation_from_toml
 
-_BENCHES = sorted(resource_path("benches").glob("*.toml"))
+_BENCHES = [
+    path
+    for path in sorted(resource_path("benches").glob("*.toml"))
+    if not path.stem.endswith("-linked")  # benches of drivers, which need somebody to serve them
+]
 
 
 def _read(text: str) -> SimulationSettings:
@@ -123,7 +127,8 @@ def test_what_is_wrong_is_named(text: str, said: str) -> None:
 @pytest.mark.parametrize("path", _BENCHES, ids=lambda path: path.stem)
 def test_the_benches_that_come_along_can_be_built(path: Any) -> None:
     data = tomllib.loads(path.read_text(encoding="utf-8"))
-    assert data.pop("kind") == "simulated"
+    if data.pop("kind") != "simulated":
+        pytest.skip("a bench of instruments: built where links are tested")
     assert build_bench(simulation_from_toml(data)).simulated
 
 

@@ -144,7 +144,7 @@ def test_a_bench_tells_who_is_there() -> None:
     seen = bench_model.look_at(demo_bench())
     assert seen.simulated
     assert seen.limits.max_rate_dps == 1000.0
-    assert "VU-100" in seen.ahrs
+    assert "VU-100" in str(seen.ahrs)
     assert ("site", "latitude_deg", "39.9042") in seen.settings
 
 

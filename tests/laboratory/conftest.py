@@ -16,7 +16,7 @@ from ahrs_lab.simulation import bench as simulated_bench
 from tests.laboratory.short_run import write_bench, write_plan
 
 
-@pytest.fixture(scope="package", autouse=True)
+@pytest.fixture(scope="module", autouse=True)
 def quick_passwords() -> Iterator[None]:
     """Hashes at the least cost: what they cost in earnest is looked at where people are tested."""
     from argon2 import PasswordHasher

@@ -141,7 +141,8 @@ class BenchPage(Page):
         self.refresh()
 
     def job_changed(self) -> None:
-        self.refresh()
+        if self.isVisible():
+            self.refresh()
 
     def refresh(self) -> None:
         """Look at the open job's bench again."""
@@ -315,4 +316,5 @@ class BenchPage(Page):
         for name, text in fault_names().items():
             if name in self.faults:
                 self.faults[name].setText(text)
-        self.refresh()
+        if self.isVisible():  # looking for drivers takes 0.1 s: not before somebody looks here
+            self.refresh()

@@ -52,7 +52,7 @@ class Screens:
         return next(job.number for job in self.laboratory.jobs() if job.state == state)
 
 
-@pytest.fixture(scope="package", autouse=True)
+@pytest.fixture(scope="module", autouse=True)
 def cheap_passwords() -> Iterator[None]:
     """Hashing is slow by design; here it is only in the way."""
     from argon2 import PasswordHasher

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Literal
 
 from ahrs_lab.certificates.fonts import font_name
@@ -71,6 +72,7 @@ def _drawn_text(run: Run) -> str:
     return run.text.replace(THIN_SPACE, " ").replace("\N{NO-BREAK SPACE}", " ").replace("\u202f", " ")
 
 
+@lru_cache(maxsize=16384)
 def text_width(rich: RichText, size: float) -> float:
     """Width of ``rich`` on one line, points."""
     from reportlab.pdfbase.pdfmetrics import stringWidth
@@ -126,15 +128,22 @@ def _broken(atom: RichText, size: float, width: float) -> list[RichText]:
 
 def wrap(rich: RichText, size: float, width: float) -> list[RichText]:
     """Lines of at most ``width`` points; words wider than that are cut. A line feed begins a new line."""
+    return list(_lines(rich, size, width))
+
+
+@lru_cache(maxsize=8192)  # a table measures each cell for its columns, its heights and its drawing
+def _lines(rich: RichText, size: float, width: float) -> tuple[RichText, ...]:
     paragraphs: list[list[Run]] = [[]]
     for run in rich:
         first, *others = run.text.split("\n")
         paragraphs[-1].append(replace(run, text=first))
         paragraphs.extend([replace(run, text=text)] for text in others)
-    return [line for paragraph in paragraphs for line in _wrap_one(tuple(paragraph), size, width)]
+    return tuple(line for paragraph in paragraphs for line in _wrap_one(tuple(paragraph), size, width))
 
 
 def _wrap_one(rich: RichText, size: float, width: float) -> list[RichText]:
+    if text_width(rich, size) <= width:
+        return [_merged([rich])]
     lines: list[list[RichText]] = [[]]
     used = 0.0
     for atom in (piece for whole in _atoms(rich) for piece in _broken(whole, size, width)):

@@ -34,13 +34,16 @@ def _application(*, language: str | None, speed: float | None, demonstration: bo
     with Laboratory() as laboratory:
         # The people's password hashes take as long as the screen's libraries: both at once.
         with ThreadPoolExecutor(1) as beside:
-            prepared = beside.submit(laboratory.prepare_demo) if demonstration else None
+            prepared = beside.submit(laboratory.open_demo) if demonstration else None
             import ahrs_lab.ui.main_window
-            import ahrs_lab.ui.pages.all_pages  # noqa: F401
+            import ahrs_lab.ui.pages.all_pages
+            import ahrs_lab.ui.pages.instruments.page
+            import ahrs_lab.ui.run.page  # noqa: F401
             from ahrs_lab.ui.application import run_application
-        if prepared is not None:
-            prepared.result()
-        return run_application(laboratory, language=language, speed=speed, demo=demonstration)
+        operator = prepared.result() if prepared is not None else None
+        return run_application(
+            laboratory, language=language, speed=speed, demo=demonstration, operator=operator
+        )
 
 
 def _demo(arguments: argparse.Namespace) -> int:

@@ -13,7 +13,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ahrs_lab.errors import InputError
+from ahrs_lab.errors import InputError, PermissionDeniedError
 from ahrs_lab.instruments.interfaces import Bench
 from ahrs_lab.laboratory import certification, job_sheets
 from ahrs_lab.laboratory.benches import bench_from_text, bench_presets, plan_from_text, plan_presets
@@ -70,6 +70,16 @@ class Laboratory:
         from ahrs_lab.laboratory.demonstration import prepare
 
         prepare(self)
+
+    def open_demo(self) -> SignedIn | None:
+        """Prepare the demonstration and sign its operator in; None where somebody has made it their own."""
+        from ahrs_lab.laboratory.demonstration import OPERATOR, PASSWORD
+
+        self.prepare_demo()
+        try:
+            return self.sign_in(OPERATOR.name, PASSWORD)
+        except PermissionDeniedError:
+            return None
 
     def people(self) -> tuple[PersonRow, ...]:
         """Everybody."""

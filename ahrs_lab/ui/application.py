@@ -25,6 +25,7 @@ from ahrs_lab.ui.translation import LanguageSwitch, said
 
 if TYPE_CHECKING:
     from ahrs_lab.laboratory.laboratory import Laboratory
+    from ahrs_lab.records.rows import SignedIn
     from ahrs_lab.ui.main_window import MainWindow
     from ahrs_lab.ui.pages.desk import Desk
     from ahrs_lab.ui.workspace import Workspace
@@ -41,19 +42,20 @@ def run_application(
     language: str | None = None,
     speed: float | None = 1.0,
     demo: bool = False,
+    operator: SignedIn | None = None,
 ) -> int:
     """Open the window on ``laboratory`` and stay until it is closed; returns the exit code.
 
     ``language`` ("en", "zh") overrides what the person chose last; ``speed`` is bench time over wall time
     of a simulated bench, None: as fast as it goes; ``demo`` marks all pages and signs the demonstration's
-    operator in.
+    operator in, unless ``operator`` is signed in already.
     """
     existing = QApplication.instance()
     app = existing if isinstance(existing, QApplication) else QApplication(sys.argv[:1])
     app.setApplicationName("ahrs-lab")
     log_to(laboratory.home / "ahrs-lab.log")
     keeper = FaultKeeper(app)
-    screen = Screen(app, laboratory, language=language, speed=speed, demo=demo)
+    screen = Screen(app, laboratory, language=language, speed=speed, demo=demo, operator=operator)
     keeper.parent_window = screen.window
     screen.window.show()
     collector = GuiCollector(app)
@@ -77,6 +79,7 @@ class Screen:
         language: str | None = None,
         speed: float | None = 1.0,
         demo: bool = False,
+        operator: SignedIn | None = None,
     ) -> None:
         settings = laboratory.settings
         self._laboratory = laboratory
@@ -94,8 +97,10 @@ class Screen:
         self.window.context.theme_chosen.connect(self.choose_theme)
         self.window.context.language_chosen.connect(self.choose_language)
         self.window.context.set_demonstration(demo)
-        if demo:
-            self._open_demonstration()
+        if demo and operator is None:
+            operator = laboratory.open_demo()
+        if operator is not None:
+            self.desk.sign_in(operator)
 
     def _add_pages(self) -> None:
         from ahrs_lab.ui.pages.all_pages import make_pages
@@ -112,15 +117,6 @@ class Screen:
             if isinstance(page, SetupPage):
                 page.theme_chosen.connect(self.choose_theme)
                 page.language_chosen.connect(self.choose_language)
-
-    def _open_demonstration(self) -> None:
-        from ahrs_lab.laboratory.demonstration import OPERATOR, PASSWORD
-
-        try:
-            self.desk.sign_in(self._laboratory.sign_in(OPERATOR.name, PASSWORD))
-        except AhrsLabError:
-            # Somebody has made the demonstration laboratory their own: they sign in themselves.
-            return
 
     def choose_theme(self, mode: str) -> None:
         """Switch and remember."""

@@ -71,6 +71,10 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--bench", type=Path, required=True, metavar="BENCH.toml")
     run.add_argument("--out", type=Path, required=True, metavar="DIR")
     run.add_argument("--speed", type=_speed, default=None, metavar="N|max", help="of a simulated bench (max)")
+    run.add_argument(
+        "--from", dest="again_from", default="", metavar="SEGMENT", help="record from there on again"
+    )
+    run.add_argument("--reason", default="", metavar="TEXT", help="why, with --from: it goes into the record")
     _evaluation_options(run)
 
     evaluate = command("evaluate", "Reduces a recording: results with uncertainty, plots, original record.")

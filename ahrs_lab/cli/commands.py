@@ -80,7 +80,13 @@ def _run(arguments: argparse.Namespace) -> int:
     try:
         with stop_signals(), ProgressLine(sys.stderr) as progress:
             outcome = run_plan(
-                plan, bench, arguments.out, on_event=progress.event, settings=_settings(arguments)
+                plan,
+                bench,
+                arguments.out,
+                on_event=progress.event,
+                settings=_settings(arguments),
+                again_from=arguments.again_from,
+                reason=arguments.reason,
             )
     finally:
         bench.close()

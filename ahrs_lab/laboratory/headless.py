@@ -52,17 +52,23 @@ def run_plan(
     on_event: Callable[[Event], None],
     settings: EvaluationSettings | None = None,
     capability: BenchCapability | None = None,
+    again_from: str = "",
+    reason: str = "",
 ) -> HeadlessOutcome:
     """Run ``plan`` on ``bench`` into ``out/recording``, evaluate it, leave result, plots and original record.
 
     A recording of the same plan that an earlier run left unfinished in ``out`` is gone on with. Raises what
-    the run ended with; the bench is then safe and what was recorded is kept.
+    the run ended with; the bench is then safe and what was recorded is kept. ``again_from``: that segment and
+    all that follow it are recorded, once more where they are there, for ``reason``.
     """
     check_plan(plan, bench.table.limits)
     bundle = out / "recording"
     header = recording_header(bench, plan)
     run = LiveRun(bench, plan, bundle, header, on_event=on_event, on_samples=_unheard, ask=False)
-    run.start()
+    if again_from:
+        run.start_from(again_from, reason)
+    else:
+        run.start()
     wait_for(run)
     result = evaluate_bundle(bundle, settings, capability)
     return HeadlessOutcome(bundle, result, write_files(result, out))

@@ -141,13 +141,21 @@ class LiveRun:
 
         self._launch(rest)
 
+    def start_from(self, segment_name: str, reason: str) -> None:
+        """Record that segment and all that follow it in the plan; earlier takes of them are kept."""
+        _need_reason(segment_name, reason)
+        limits = self._bench.table.limits
+
+        def again(_writer: BundleWriter) -> _Work:
+            procedure = jjf1536.from_segment(self.plan, segment_name, limits, reason)
+            names = jjf1536.segment_names(self.plan)
+            return procedure, jjf1536.steps(self.plan, limits, frozenset(names[: names.index(segment_name)]))
+
+        self._launch(again)
+
     def repeat(self, segment_name: str, reason: str) -> None:
         """Record one segment again; both takes are kept, the last one counts. Only when nothing runs."""
-        if not reason.strip():
-            raise InputError(
-                "Say why {segment} is repeated: the reason goes into the record.", segment=segment_name
-            )
-
+        _need_reason(segment_name, reason)
         limits = self._bench.table.limits
 
         def again(writer: BundleWriter) -> _Work:
@@ -228,3 +236,10 @@ class LiveRun:
         """Wait for the run's end; True when it has ended."""
         # Not by the thread's own join: one that Ctrl-C interrupts may take a thread for ended that is not.
         return self._ended.wait(timeout_s)
+
+
+def _need_reason(segment_name: str, reason: str) -> None:
+    if not reason.strip():
+        raise InputError(
+            "Say why {segment} is repeated: the reason goes into the record.", segment=segment_name
+        )

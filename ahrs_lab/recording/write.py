@@ -293,4 +293,4 @@ def _superseded_by(segment: Segment, take: Segment) -> Segment:
     """A take as it stands once ``segment`` has been recorded."""
     if take.name != segment.name or take.superseded or take.interrupted:
         return take
-    return replace(take, superseded=True, reason=AGAIN.text())
+    return replace(take, superseded=True, reason=segment.reason or AGAIN.text())

@@ -34,16 +34,12 @@ def _standard(row: StandardRow) -> Standard:
     )
 
 
-def capability(job: JobRow) -> BenchCapability:
-    """The bench's figures for the budget: clause 6's own, called certified where the job's table and fixture
-    have a certificate that holds them, else assumed."""
-    certified: list[str] = []
-    kinds = {row.kind for row in job.standards if row.certificate_number}
-    if "table" in kinds:
-        certified += ["rate_relative", "position_arcsec"]
-    if "fixture" in kinds:
-        certified += ["fixture_perpendicularity_arcsec"]
-    return BenchCapability(certified=tuple(certified))
+def capability() -> BenchCapability:
+    """The bench's figures for the budget: clause 6's own, as assumptions.
+
+    The figures that the standards' certificates state are not entered, so none may be called certified.
+    """
+    return BenchCapability()
 
 
 def violations(job: JobRow, result: CalibrationResult | None) -> tuple[Message, ...]:
@@ -52,7 +48,7 @@ def violations(job: JobRow, result: CalibrationResult | None) -> tuple[Message, 
         standards_of(job),
         on_date=job.calibrated or date.today(),  # noqa: DTZ011  due dates are the laboratory's own
         environment=result.environment if result is not None else None,
-        capability=capability(job),
+        capability=capability(),
     )
 
 
@@ -103,7 +99,7 @@ def job_sheet(
         place=job.place,
         place_en=job.place_en,
         standards=standards_of(job),
-        capability=capability(job),
+        capability=capability(),
         uncertainty_method=method,
         accepted_violations=accepted_violations,
         demonstration=result.simulated,

@@ -216,8 +216,7 @@ class Laboratory:
 
     def recalculate(self, number: str, settings: EvaluationSettings, actor: SignedIn) -> CalibrationResult:
         """Reduce the job's recording again; the result becomes the current one, earlier ones stay."""
-        job = self.job(number)
-        result = evaluate_bundle(self.bundle(number), settings, job_sheets.capability(job))
+        result = evaluate_bundle(self.bundle(number), settings, job_sheets.capability())
         self.records.jobs.add_result(
             number, json.dumps(to_json(result), ensure_ascii=False, allow_nan=False), actor
         )

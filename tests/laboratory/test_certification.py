@@ -233,3 +233,14 @@ def test_the_command_line_does_not_call_a_half_signed_certificate_good(desk: Des
     root = desk.laboratory.home / "authority" / "root.pem"
     assert desk.laboratory.verify(file).valid
     assert main(["verify", str(file), "--trust", str(root)]) == 1
+
+
+def test_a_figure_that_nobody_read_from_a_certificate_is_not_called_certified(desk: Desk) -> None:
+    result = desk.laboratory.result(desk.number)
+    assert result is not None
+    stated = [
+        *(found.uncertainty for found in result.scale_factor.values()),
+        *(found.uncertainty for found in result.zero_offset.values()),
+        *(found.uncertainty for found in result.misalignment.values()),
+    ]
+    assert {row.origin for uncertainty in stated for row in uncertainty.rows} == {"data", "assumption"}

@@ -134,6 +134,7 @@ class RowMaker:
         self._carried: dict[str, float] = {}
         self._fresh = False
         self._known: dict[str, None] = {}
+        self._silent = 0
         self._made = 0
         self._ticks = Unwrapper(self.clockwork.tick_modulus, forward_only=False)
         self._counter = Unwrapper(self.clockwork.counter_modulus, forward_only=True)
@@ -273,7 +274,10 @@ class RowMaker:
         return keep
 
     def _finished(self, raw: tuple[int, dict[str, Array]]) -> Samples:
-        """Wrapped numbers made continuous; every column said so far is there, NaN where it was not yet."""
+        """Wrapped numbers made continuous; every column said so far is there, NaN where it was not yet.
+
+        Rows before the first number of all wait for the column that makes them visible.
+        """
         count, given = raw
         if not count:
             return Samples()
@@ -285,6 +289,13 @@ class RowMaker:
             columns["counter"] = self._counter.unwrap(counter)
         self._time(columns, count)
         self._made += count
+        if not self._known and not columns:
+            self._silent += count
+            return Samples()
+        if self._silent:
+            wanting = np.full(self._silent, np.nan)
+            columns = {name: np.concatenate([wanting, column]) for name, column in columns.items()}
+            count, self._silent = count + self._silent, 0
         first = [name for name in ("t_s", "counter") if name in columns]
         self._known.update(dict.fromkeys([*first, *columns]))
         return Samples({name: columns.get(name, np.full(count, np.nan)) for name in self._known})

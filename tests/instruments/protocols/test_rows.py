@@ -113,6 +113,15 @@ def test_a_single_frame_waits_for_the_second_or_the_end() -> None:
     assert rows.flush()["gyro_x"].tolist() == [1]
 
 
+def test_rows_that_say_nothing_yet_wait_for_the_first_column() -> None:
+    rows = maker()
+    nothing = part("g", Rank.RAW_RATE, [0, 1], gyro_x=[np.nan, np.nan])
+    assert not len(rows.feed([nothing]))
+    made = rows.feed([part("g", Rank.RAW_RATE, [2], gyro_x=[3])])
+    np.testing.assert_array_equal(made["gyro_x"], [np.nan, np.nan, 3])
+    assert not len(rows.flush())
+
+
 def test_blocks_are_joined_under_the_columns_of_all() -> None:
     whole = joined(
         [Samples({"a": np.array([1.0])}), Samples(), Samples({"a": np.array([2.0]), "b": np.array([3.0])})]

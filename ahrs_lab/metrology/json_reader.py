@@ -28,6 +28,10 @@ class JsonReader:
         """Whether the key is there and not null."""
         return self.data.get(name) is not None
 
+    def fault(self, name: str, wanted: Message) -> InputError:
+        """What to raise where the value of a key is not what it has to be."""
+        return _fault(self.key(name), wanted, self.data.get(name))
+
     def value(self, name: str) -> Any:
         """Anything, but there."""
         if name not in self.data:

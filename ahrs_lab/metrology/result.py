@@ -26,7 +26,8 @@ class BudgetRow:
     """One source of uncertainty of one quantity.
 
     ``standard_uncertainty`` is u(x) in the source's own ``unit``; ``contribution`` = |sensitivity|·u(x) in
-    the quantity's unit; ``dof`` may be infinite.
+    the quantity's unit; ``dof`` may be infinite. Rows whose uncertainty is one and the same estimate carry
+    its name in ``shared``: their degrees of freedom count once.
     """
 
     symbol: str
@@ -42,6 +43,38 @@ class BudgetRow:
     origin: Origin
     estimate: float | None = None
     half_width: float | None = None
+    shared: str = ""
+
+
+@dataclass(frozen=True)
+class Correlation:
+    """Correlation coefficient of two rows of a budget, by their place in it."""
+
+    first: int
+    second: int
+    coefficient: float
+
+
+@dataclass(frozen=True)
+class MonteCarloCheck:
+    """Propagation of distributions (JCGM 101) of one quantity, and what it says of the GUM interval.
+
+    Intervals hold 95 %; all in the quantity's unit. ``tolerance`` is δ of 7.9.2 for ``digits`` significant
+    digits of u; ``validated``: both ends of value ± U lie within δ of the symmetric interval's (clause 8).
+    ``counts`` of the trials in equal bins from ``bins[0]`` to ``bins[1]`` are for looking at.
+    """
+
+    trials: int
+    seed: int
+    mean: float
+    standard: float
+    symmetric: tuple[float, float]
+    shortest: tuple[float, float]
+    digits: int
+    tolerance: float
+    validated: bool
+    bins: tuple[float, float]
+    counts: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -54,6 +87,8 @@ class Uncertainty:
     dof: float
     method: Method
     rows: tuple[BudgetRow, ...] = ()
+    correlations: tuple[Correlation, ...] = ()
+    monte_carlo: MonteCarloCheck | None = None
 
 
 @dataclass(frozen=True)

@@ -18,18 +18,14 @@ from ahrs_lab.metrology.json_reader import JsonReader, message_from_json
 from ahrs_lab.metrology.result import (
     MISALIGNMENT_KEYS,
     AxisName,
-    BudgetRow,
     CalibrationResult,
-    Distribution,
     Environment,
-    Method,
     MisalignmentResult,
-    Origin,
     ResultWarning,
     ScaleFactorResult,
-    Uncertainty,
     ZeroOffsetResult,
 )
+from ahrs_lab.metrology.uncertainty_json import read_uncertainty, uncertainty_json
 
 _AXES: tuple[AxisName, ...] = get_args(AxisName)
 _RATE_SOURCES = ("demanded", "table")
@@ -109,71 +105,12 @@ def from_json(data: object) -> CalibrationResult:
     )
 
 
-def _uncertainty(found: Uncertainty) -> dict[str, Any]:
-    return {
-        "standard_uncertainty": found.standard,
-        "expanded_uncertainty": found.expanded,
-        "coverage_factor": found.coverage_factor,
-        "dof": _dof(found.dof),
-        "method": found.method,
-        "budget": [_row(row) for row in found.rows],
-    }
-
-
-def _read_uncertainty(reader: JsonReader) -> Uncertainty:
-    return Uncertainty(
-        standard=reader.number("standard_uncertainty"),
-        expanded=reader.number("expanded_uncertainty"),
-        coverage_factor=reader.number("coverage_factor"),
-        dof=reader.dof("dof"),
-        method=reader.choice("method", get_args(Method), "gum"),
-        rows=tuple(_read_row(entry) for entry in reader.objects("budget")),
-    )
-
-
-def _row(row: BudgetRow) -> dict[str, Any]:
-    return {
-        "symbol": row.symbol,
-        "source": row.source.text(),
-        "message": row.source.to_json(),
-        "unit": row.unit,
-        "standard_uncertainty": row.standard_uncertainty,
-        "sensitivity": row.sensitivity,
-        "contribution": row.contribution,
-        "kind": row.kind,
-        "distribution": row.distribution,
-        "divisor": row.divisor,
-        "dof": _dof(row.dof),
-        "origin": row.origin,
-        "estimate": row.estimate,
-        "half_width": row.half_width,
-    }
-
-
-def _read_row(reader: JsonReader) -> BudgetRow:
-    return BudgetRow(
-        symbol=reader.text("symbol"),
-        source=message_from_json(reader.value("message"), reader.key("message")),
-        unit=reader.text("unit"),
-        standard_uncertainty=reader.number("standard_uncertainty"),
-        sensitivity=reader.number("sensitivity"),
-        contribution=reader.number("contribution"),
-        kind=reader.choice("kind", ("A", "B")),
-        distribution=reader.choice("distribution", get_args(Distribution)),
-        divisor=reader.number("divisor"),
-        dof=reader.dof("dof"),
-        origin=reader.choice("origin", get_args(Origin)),
-        estimate=reader.optional_number("estimate"),
-        half_width=reader.optional_number("half_width"),
-    )
-
-
 def _scale_factor(found: ScaleFactorResult) -> dict[str, Any]:
     return {
         "K": found.K,
         "F0": found.F0,
         "unit": found.unit,
-        **_uncertainty(found.uncertainty),
+        **uncertainty_json(found.uncertainty),
         "rates_dps": list(found.rates_dps),
         "means": list(found.means),
         "residuals": list(found.residuals),
@@ -185,7 +122,7 @@ def _scale_factor(found: ScaleFactorResult) -> dict[str, Any]:
         "static_after": found.static_after,
         "rate_source": found.rate_source,
         "segments": list(found.segments),
-        "F0_uncertainty": None if found.F0_uncertainty is None else _uncertainty(found.F0_uncertainty),
+        "F0_uncertainty": None if found.F0_uncertainty is None else uncertainty_json(found.F0_uncertainty),
     }
 
 
@@ -204,11 +141,11 @@ def _read_scale_factor(axis: AxisName, reader: JsonReader) -> ScaleFactorResult:
         static_after=reader.number("static_after", 0.0),
         nonlinearity_ppm=reader.number("nonlinearity_ppm"),
         asymmetry_ppm=reader.number("asymmetry_ppm"),
-        uncertainty=_read_uncertainty(reader),
+        uncertainty=read_uncertainty(reader),
         rate_source=reader.choice("rate_source", _RATE_SOURCES, "demanded"),
         segments=reader.texts("segments"),
         standard_errors=reader.numbers("standard_errors", ()),
-        F0_uncertainty=_read_uncertainty(reader.object("F0_uncertainty"))
+        F0_uncertainty=read_uncertainty(reader.object("F0_uncertainty"))
         if reader.has("F0_uncertainty")
         else None,
     )
@@ -232,7 +169,7 @@ def _zero_offset(found: ZeroOffsetResult) -> dict[str, Any]:
         "unit": found.unit,
         "duration_s": found.duration_s,
         "angles_deg": list(found.angles_deg),
-        **_uncertainty(found.uncertainty),
+        **uncertainty_json(found.uncertainty),
         "schedule": found.schedule,
         "orientations": list(found.orientations),
         "azimuths_deg": list(found.azimuths_deg),
@@ -252,7 +189,7 @@ def _read_zero_offset(axis: AxisName, reader: JsonReader) -> ZeroOffsetResult:
         unit=reader.text("unit"),
         duration_s=reader.number("duration_s"),
         angles_deg=reader.numbers("angles_deg"),
-        uncertainty=_read_uncertainty(reader),
+        uncertainty=read_uncertainty(reader),
         schedule=reader.choice("schedule", _SCHEDULES, "standard"),
         orientations=reader.texts("orientations"),
         azimuths_deg=reader.numbers("azimuths_deg", ()),
@@ -273,7 +210,7 @@ def _misalignment(found: MisalignmentResult) -> dict[str, Any]:
         "turns": found.turns,
         "angle_positive_deg": found.angle_positive_deg,
         "angle_negative_deg": found.angle_negative_deg,
-        **_uncertainty(found.uncertainty),
+        **uncertainty_json(found.uncertainty),
         "rate_dps": found.rate_dps,
         "duration_s": found.duration_s,
         "segments": list(found.segments),
@@ -288,7 +225,7 @@ def _read_misalignment(key: str, reader: JsonReader) -> MisalignmentResult:
         turns=reader.whole("turns"),
         angle_positive_deg=reader.number("angle_positive_deg"),
         angle_negative_deg=reader.number("angle_negative_deg"),
-        uncertainty=_read_uncertainty(reader),
+        uncertainty=read_uncertainty(reader),
         unit=reader.text("unit"),
         rate_dps=reader.number("rate_dps", 0.0),
         duration_s=reader.number("duration_s", 0.0),
@@ -327,10 +264,6 @@ def _read_environment(reader: JsonReader) -> Environment | None:
         humidity_percent=inside.number("humidity_percent"),
         humidity_spread_percent=inside.number("humidity_spread_percent"),
     )
-
-
-def _dof(dof: float) -> float | None:
-    return dof if math.isfinite(dof) else None
 
 
 def _plain(value: object) -> Any:

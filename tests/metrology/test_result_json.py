@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from datetime import datetime
 from typing import Any
 
@@ -14,8 +15,10 @@ from ahrs_lab.messages import Message
 from ahrs_lab.metrology.result import (
     BudgetRow,
     CalibrationResult,
+    Correlation,
     Environment,
     MisalignmentResult,
+    MonteCarloCheck,
     ResultWarning,
     ScaleFactorResult,
     Uncertainty,
@@ -41,7 +44,28 @@ ROWS = (
     ),
     BudgetRow("F̄", Message("Time base"), "deg/s", 1e-5, 0.3, 3e-6, "A", "t", 1.0, 19.5, "data", 0.1, None),
 )
-STATED = Uncertainty(1.1e-4, 2.2e-4, 1.96, math.inf, "gum", ROWS)
+STATED = Uncertainty(
+    1.1e-4,
+    2.2e-4,
+    1.96,
+    math.inf,
+    "gum",
+    (ROWS[0], replace(ROWS[1], shared="noise x")),
+    (Correlation(0, 1, -0.25),),
+    MonteCarloCheck(
+        trials=200_000,
+        seed=7,
+        mean=1.0,
+        standard=1.1e-4,
+        symmetric=(0.9998, 1.0002),
+        shortest=(0.9998, 1.00021),
+        digits=2,
+        tolerance=5e-6,
+        validated=True,
+        bins=(0.9995, 1.0005),
+        counts=(1, 20, 3),
+    ),
+)
 OTHER = Uncertainty(0.1, 0.2, 2.0, 17.25, "annex-a")
 
 

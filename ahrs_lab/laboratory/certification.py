@@ -1,7 +1,8 @@
 """From a measured job to its signed certificate.
 
 The certificate of a revision is laid out once, when the operator signs: from then on the file only grows by
-signatures. Each person's key stands in ``home/authority``, locked by the person's own password.
+signatures. Each person's key stands in ``home/authority``, locked by the person's own password; it is made at
+the person's first signature.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.records.rows import PersonRow, SignedIn, SigningRole
 
 if TYPE_CHECKING:
-    from ahrs_lab.certificates.authority import Authority
+    from ahrs_lab.certificates.authority import Authority, SigningIdentity
     from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet, Person
     from ahrs_lab.certificates.verify import VerificationReport
     from ahrs_lab.laboratory.laboratory import Laboratory
@@ -119,7 +120,7 @@ def sign(
             today = date.today()  # noqa: DTZ011  the date on a certificate is the laboratory's own
             certificate_pdf(result, _sheet(laboratory, number, result, issued=today), target, language)
         sheet = _sheet(laboratory, number, _measured(laboratory, number), issued=None)
-        identity = authority(laboratory.home).unlock(_key_name(actor.person), password)
+        identity = _identity(laboratory, actor, password)
         person: Person = getattr(sheet, role)
         before = target.read_bytes()
         sign_certificate(target, role, identity, person)
@@ -130,6 +131,16 @@ def sign(
             target.write_bytes(before)  # a signature that the records do not know is none
             raise
     return target
+
+
+def _identity(laboratory: Laboratory, actor: SignedIn, password: str) -> SigningIdentity:
+    """The actor's own key. Raises PermissionDeniedError for a wrong password."""
+    keys, person = authority(laboratory.home), actor.person
+    if not keys.has(_key_name(person)):
+        people = laboratory.records.people
+        people.sign_out(people.sign_in(person.name, password))
+        make_key(laboratory.home, person, password)
+    return keys.unlock(_key_name(person), password)
 
 
 def _unchanged(file: Path, digest: str) -> None:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ahrs_lab.errors import AhrsLabError, InputError
+from ahrs_lab.laboratory import certification
 from ahrs_lab.laboratory.benches import bench_presets, plan_presets
 from ahrs_lab.laboratory.evaluation import OutputFolder, write_files
 from ahrs_lab.laboratory.headless import wait_for
@@ -56,17 +57,18 @@ APPROVER = PersonRow(
 )
 
 
-def prepare(laboratory: Laboratory) -> None:
-    """Fill an empty laboratory; one that has people already stays as it is.
+def prepare(laboratory: Laboratory) -> SignedIn | None:
+    """Fill an empty laboratory and sign its operator in; one that has people already stays as it is.
 
     Of several instances at once the first one does it, the others wait until it is done.
     """
     if laboratory.people() and laboratory.jobs():
-        return
+        return None
     with _alone(laboratory.home):
         known = {row.name for row in laboratory.people()}
         if not laboratory.jobs() and known <= {row.name for row in (OPERATOR, VERIFIER, APPROVER)}:
-            _fill(laboratory)
+            return _fill(laboratory)
+    return None
 
 
 @contextmanager
@@ -86,7 +88,7 @@ def _alone(home: Path) -> Iterator[None]:
         lock.release()
 
 
-def _fill(laboratory: Laboratory) -> None:
+def _fill(laboratory: Laboratory) -> SignedIn:
     """Also goes on where another start was killed half-way."""
     found = {row.name: row for row in laboratory.people()}
 
@@ -109,6 +111,8 @@ def _fill(laboratory: Laboratory) -> None:
         laboratory.save_standard(row, actor)
     for plan in (ACCELERATED_PLAN, STANDARD_PLAN):
         laboratory.create_job(_draft(laboratory, plan, (operator.id, verifier.id, approver.id)), actor)
+    certification.authority(laboratory.home).create()
+    return actor
 
 
 def _standards(today: date) -> tuple[StandardRow, ...]:

@@ -64,20 +64,20 @@ class Laboratory:
 
     # people ---------------------------------------------------------------------------------------------
 
-    def prepare_demo(self) -> None:
+    def prepare_demo(self) -> SignedIn | None:
         """A demonstration laboratory with its people, standards and a job, unless there is a laboratory
-        already."""
+        already. Its operator is signed in where it was made just now."""
         from ahrs_lab.laboratory.demonstration import prepare
 
-        prepare(self)
+        return prepare(self)
 
     def open_demo(self) -> SignedIn | None:
         """Prepare the demonstration and sign its operator in; None where somebody has made it their own."""
         from ahrs_lab.laboratory.demonstration import OPERATOR, PASSWORD
 
-        self.prepare_demo()
+        made = self.prepare_demo()
         try:
-            return self.sign_in(OPERATOR.name, PASSWORD)
+            return made or self.sign_in(OPERATOR.name, PASSWORD)
         except PermissionDeniedError:
             return None
 
@@ -90,10 +90,8 @@ class Laboratory:
         return self.records.people.sign_in(name, password)
 
     def add_person(self, row: PersonRow, password: str, actor: SignedIn | None) -> PersonRow:
-        """Add somebody, with a signing key of the laboratory's authority locked by the same password."""
-        added = self.records.people.add(row, password, actor)
-        certification.make_key(self.home, added, password)
-        return added
+        """Add somebody; their signing key is made when they first sign, locked by the same password."""
+        return self.records.people.add(row, password, actor)
 
     def change_person(self, row: PersonRow, actor: SignedIn, password: str | None = None) -> None:
         """Change somebody; a new password comes with a new signing key."""

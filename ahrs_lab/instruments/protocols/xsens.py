@@ -191,6 +191,9 @@ def _parts_of(orders: NDArray[np.int64], rows: Bytes2D) -> list[Part]:
         items = items_of(frame[start:-1])
         places = [start + place - 3 + i for _, place, _ in items for i in range(3)]
         same = (rows[:, places] == rows[0, places]).all(axis=1)
+        if not items or sum(items[-1][1:]) < len(frame) - 1 - start:
+            # Bytes behind the last item are none in this message, but may begin one in another.
+            same = np.array([items_of(row[start:-1].tobytes()) == items for row in rows])
         if items:
             columns = _completed(
                 layout_of(frame[:start], items, len(frame) - start - 1).read(rows[same]), items

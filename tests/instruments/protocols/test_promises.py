@@ -124,3 +124,14 @@ def test_replies_are_kept_apart_from_samples(codec: Codec) -> None:
     rows = decoded(decoder, [codec.stream + b"".join(codec.replies)])
     assert len(decoder.replies) == len(codec.replies)
     assert len(rows) == len(decoded(codec.decoder(), [codec.stream]))
+
+
+def test_an_item_cut_off_in_one_message_does_not_hide_those_of_the_next() -> None:
+    """Equally long messages that begin alike: the first one's second item runs over its end."""
+    codec = next(codec for codec in CODECS if codec.name == "xsens")
+    whole = codec.frames[0]
+    counter = whole[4:9]
+    odd = codec.sealed(counter + b"\x04\x0b\xff" + bytes(len(whole) - 5 - 8))
+    assert len(odd) == len(whole)
+    rows = decoded(codec.decoder(), [odd + codec.stream])
+    assert len(rows) == len(codec.frames)

@@ -12,7 +12,8 @@ from ahrs_lab.instruments.protocols.checksums import crc16_xmodem, xor8
 from ahrs_lab.instruments.protocols.frames import NO_FRAME, UNDECIDED, Bytes2D
 
 _MAX_LENGTH: Final = 512
-_BODY = re.compile(rb"[ -#%-)+-~]*")
+_BODY: Final = re.compile(rb"[ -#%-)+-~]*")
+_LONGEST_BODY: Final = _MAX_LENGTH - 2
 _TAIL_LENGTH: Final = 7
 _STAR: Final = 0x2A
 
@@ -29,12 +30,18 @@ class SentenceFormat:
     def __init__(self, prefix: bytes, tail: re.Pattern[bytes]) -> None:
         self._prefix = prefix
         self._tail = tail
+        body = re.escape(prefix) + b"[ -#%%-)+-~]{0,%d}" % (_LONGEST_BODY + 1 - len(prefix))
+        self._whole = re.compile(body + tail.pattern)
 
     def find(self, data: bytes, start: int) -> int:
         place = data.find(b"$", start)
         return place if place >= 0 else len(data)
 
     def extent(self, data: bytes, start: int) -> int:
+        # Nearly every place that is asked about begins a whole sentence.
+        whole = self._whole.match(data, start)
+        if whole:
+            return whole.end() - start
         if not self._prefix.startswith(data[start : start + len(self._prefix)]):
             return NO_FRAME
         match = _BODY.match(data, start + 1, start + _MAX_LENGTH)

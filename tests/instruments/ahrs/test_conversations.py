@@ -13,13 +13,12 @@ import pytest
 
 from ahrs_lab.errors import InputError, InstrumentError
 from ahrs_lab.instruments.drivers.ahrs.microstrain import MicroStrainAhrs, MicroStrainSettings
-from ahrs_lab.instruments.drivers.ahrs.streaming import StreamingAhrs
 from ahrs_lab.instruments.drivers.ahrs.vectornav import VectorNavAhrs, VectorNavSettings
 from ahrs_lab.instruments.drivers.ahrs.xsens import XsensAhrs, XsensSettings
 from ahrs_lab.instruments.links.link import LinkLostError
 from ahrs_lab.instruments.links.link_settings import LinkSettings
 from ahrs_lab.instruments.real_clock import RealClock
-from ahrs_lab.recording.samples import Samples, concatenate
+from tests.instruments.ahrs.reading import read_until
 from tests.instruments.ahrs.scripted_unit import ScriptedLink
 
 LINK = LinkSettings(device="scripted")
@@ -71,15 +70,6 @@ VN_DIALOGUE = [
 
 def vectornav(link: ScriptedLink, **settings: object) -> VectorNavAhrs:
     return VectorNavAhrs(VectorNavSettings(LINK, boot_time_s=0.0, **settings), link, RealClock())  # type: ignore[arg-type]
-
-
-def read_until(ahrs: StreamingAhrs, count: int) -> Samples:
-    blocks: list[Samples] = []
-    end = time.monotonic() + 5.0
-    while sum(len(block) for block in blocks) < count and time.monotonic() < end:
-        blocks.append(ahrs.read())
-        time.sleep(0.002)
-    return concatenate(blocks)
 
 
 def test_vectornav_is_paused_set_read_back_and_started() -> None:

@@ -17,7 +17,6 @@ from ahrs_lab.instruments.protocols.anpp import (
     ACKNOWLEDGE,
     DEVICE_INFORMATION,
     PACKET_TIMER_PERIOD,
-    PACKETS_PERIOD,
     RAW_SENSORS,
     UNIX_TIME,
     AnppPacket,
@@ -25,15 +24,20 @@ from ahrs_lab.instruments.protocols.anpp import (
     encode_packets_period,
     encode_request,
     encode_timer_period,
+    packet_object,
 )
 
 _FRAME_BYTES = 5 + 8 + 5 + 48
+_WORDS = range(0, 24, 4)
+"""Of the device information: software version, device, hardware revision, serial number in three."""
 _RESULTS = {
     1: "CRC error",
     2: "wrong size",
     3: "out of range",
-    4: "not accepted in this state",
-    5: "unknown packet",
+    4: "its memory failed",
+    5: "not ready",
+    6: "unknown packet",
+    7: "not accepted in this mode",
 }
 
 
@@ -78,21 +82,22 @@ class AdvancedNavigationAhrs(StreamingAhrs):
 
     def _ask_identity(self) -> str:
         data = self._packet(DEVICE_INFORMATION, "device information")
-        words = [int.from_bytes(data[at : at + 4], "little") for at in range(0, 24, 4)]
-        _, device, hardware, *serial = (*words, 0, 0, 0, 0, 0, 0)[:6]
+        software, device, hardware, *serial = (int.from_bytes(data[at : at + 4], "little") for at in _WORDS)
         number = "-".join(f"{part:08X}" for part in serial)
-        self._named(model=f"device {device}", serial_number=number)
-        return f"Advanced Navigation device {device} hardware {hardware} s/n {number}"
+        known = packet_object(AnppPacket(DEVICE_INFORMATION, data))
+        model = f"device {device}" if known is None else known.device_id.name.replace("_", " ")
+        self._named(model=model, serial_number=number)
+        return f"Advanced Navigation {model} hardware {hardware} s/n {number} firmware {software}"
 
     def _pause(self) -> None:
-        self._command(encode_packets_period([]), PACKETS_PERIOD, "packets period")
+        self._command(encode_packets_period([]), "packets period")
 
     def _resume(self) -> None:
-        self._command(encode_packets_period(self._periods), PACKETS_PERIOD, "packets period")
+        self._command(encode_packets_period(self._periods), "packets period")
 
     def _write_settings(self) -> None:
         timer = encode_timer_period(self.settings.timer_us)
-        self._command(timer, PACKET_TIMER_PERIOD, "packet timer period")
+        self._command(timer, "packet timer period")
 
     def _settings(self) -> tuple[Mapping[str, str], Mapping[str, str]]:
         data = self._packet(PACKET_TIMER_PERIOD, "packet timer period")
@@ -109,15 +114,17 @@ class AdvancedNavigationAhrs(StreamingAhrs):
 
         return self._ask(encode_request([packet_id]), data, what)
 
-    def _command(self, command: bytes, packet_id: int, what: str) -> None:
-        self._ask(command, _acknowledged(packet_id, what), what)
+    def _command(self, command: bytes, what: str) -> None:
+        self._ask(command, _acknowledged(command, what), what)
 
 
-def _acknowledged(packet_id: int, what: str) -> Callable[[AnppPacket], bool | None]:
-    """Whether a packet acknowledges ``packet_id``; raises InstrumentError where it refuses it."""
+def _acknowledged(command: bytes, what: str) -> Callable[[AnppPacket], bool | None]:
+    """Whether a packet acknowledges ``command``, by its identifier and its CRC: the answer to an earlier one
+    may come late. Raises InstrumentError where it refuses it."""
+    mark = command[1:2] + command[3:5]
 
     def accepted(packet: AnppPacket) -> bool | None:
-        if packet.id != ACKNOWLEDGE or len(packet.data) < 4 or packet.data[0] != packet_id:
+        if packet.id != ACKNOWLEDGE or len(packet.data) != 4 or not packet.data.startswith(mark):
             return None
         result = packet.data[3]
         if result:

@@ -17,8 +17,8 @@ from ahrs_lab.instruments.protocols.nmea import NmeaStream
 from ahrs_lab.instruments.protocols.stream import StreamDecoder
 from ahrs_lab.recording.samples import Samples
 
-_NMEA_BYTES = 82
-"""The longest sentence the standard allows."""
+_NMEA_BYTES = 18
+"""The shortest sentence that makes a sample, ``$HEHDT,1.0,T*hh``; which ones come is not known before."""
 _LAG_S = 0.2
 _LAG_INTERVALS = 3.0
 _LAG_SHARE = 2e-3
@@ -90,6 +90,10 @@ class ListeningAhrs(StreamingAhrs):
     def _ask_identity(self) -> str:
         known = self.description
         return " ".join(filter(None, (known.manufacturer, known.model or known.name, known.serial_number)))
+
+    def _recover(self) -> None:
+        """There is nothing to verify: what comes next is read on."""
+        self._last_sample_s = self._clock.now_s()
 
     def _pause(self) -> None:
         """It cannot be told."""

@@ -346,9 +346,13 @@ class StreamingAhrs(ABC):
     def _read_blocks(self, blocks: Sequence[Block]) -> Samples:
         arrived: list[Samples] = []
         for block in blocks:
+            if block.kind is BlockKind.LOST:
+                # Half a frame from before the gap and half of one from behind it are not to become one.
+                arrived.append(self._stamped(self._decoder.flush(), block.t_s))
             if block.kind is BlockKind.BACK:
                 self._recover()
-                break
+                if self._recovery is not None:
+                    break
             if block.data:
                 self._last_bytes_s = block.t_s
                 arrived.append(self._stamped(self._decoder.feed(block.data), block.t_s))
@@ -415,6 +419,8 @@ class StreamingAhrs(ABC):
                         raise
             self._settle_settings()
             self._resume()
+            # Its silence so far was the cable's: from here on it has as long as any other to send.
+            self._last_sample_s = self._clock.now_s()
         except AhrsLabError as error:
             self._failure = error
         finally:

@@ -25,6 +25,7 @@ from ahrs_lab.simulation.servers.linked_toml import linked_bench
 from ahrs_lab.simulation.servers.served_bench import ServeSettings, serve_bench
 from ahrs_lab.simulation.settings import simulation_from_toml
 from tests.instruments.supervisor.acl_world import AclWorld
+from tests.instruments.supervisor.process_end import wait_for_end
 
 SPINNER = Path(__file__).with_name("spinner.py")
 STOPPED_WITHIN_S = 2.0
@@ -49,20 +50,7 @@ def spinning(bench: dict[str, Any], report: Path) -> Iterator[subprocess.Popen[s
         process.kill()
         process.wait()
         process.stdout.close()
-        _wait_for_end(supervisor)
-
-
-def _wait_for_end(process_id: int) -> None:
-    """The supervisor is nobody's child any more once its application is gone."""
-    end = time.monotonic() + 10.0
-    while process_id and time.monotonic() < end:
-        try:
-            state = Path(f"/proc/{process_id}/stat").read_text(encoding="ascii").rsplit(")", 1)[1].split()[0]
-        except OSError:
-            return
-        if state == "Z":
-            return
-        time.sleep(0.02)
+        wait_for_end(supervisor)
 
 
 def table_of(world: AclWorld) -> dict[str, Any]:

@@ -59,8 +59,14 @@ class TextFormat:
     def values(self, line: bytes) -> dict[int, float] | None:
         """Numbers of the fields that are used; None where the line is not as described."""
         body = self._checked(line.strip(b"\r\n"))
-        if body is None:
-            return None
+        return None if body is None else self._numbers(body)
+
+    def values_of_held(self, line: bytes) -> dict[int, float] | None:
+        """:meth:`values` of a line whose checksum has been found right."""
+        body = line.strip(b"\r\n")
+        return self._numbers(body.rpartition(self._description.marker)[0] if self._checksum.size else body)
+
+    def _numbers(self, body: bytes) -> dict[int, float] | None:
         fields = body[len(self._description.prefix) :].split(self._description.separator)
         if len(fields) != self._description.fields:
             return None
@@ -116,7 +122,7 @@ class GenericTextStream(FramedStream):
         self._columns = description.columns
 
     def _parts(self, runs: Sequence[Run]) -> list[Part]:
-        rows = [self._format.values(run.data[run.start : run.start + run.length]) for run in runs]
+        rows = [self._format.values_of_held(run.data[run.start : run.start + run.length]) for run in runs]
         orders = np.array([run.order for run in runs], dtype=np.int64)
         fields = {c.field: np.array([row[c.field] if row else np.nan for row in rows]) for c in self._columns}
         columns = {

@@ -57,7 +57,8 @@ class TableLimits:
 
 @dataclass(frozen=True)
 class TableState:
-    """One look at the table. ``fault`` is the table's own text, empty when well."""
+    """One look at the table. ``fault`` is the table's own text, empty when well. Angle and rate were read at
+    most ``doubt_s`` before or after ``t_s``."""
 
     t_s: float
     angle_deg: float
@@ -66,15 +67,22 @@ class TableState:
     moving: bool
     enabled: bool
     fault: str = ""
+    doubt_s: float = 0.0
 
 
 @dataclass(frozen=True)
 class TableLog:
-    """What the table reported since it was last asked: arrays of shape (n,), bench time."""
+    """What the table reported since it was last asked: arrays of shape (n,), bench time.
+
+    Each row was read at most ``doubt_s`` before or after its ``t_s``; None: the times are exact.
+    ``reports_rate``: whether the rate is the table's own word, or was formed here from its angles.
+    """
 
     t_s: Array
     angle_deg: Array
     rate_dps: Array
+    doubt_s: Array | None = None
+    reports_rate: bool = True
 
 
 class RateTable(Protocol):

@@ -36,7 +36,7 @@ class LimitedTable:
     def __init__(self, table: RateTable, limits: SoftLimits) -> None:
         self._table = table
         self._soft = limits
-        self._looks: deque[tuple[float, float]] = deque()
+        self._looks: deque[tuple[float, float, float]] = deque()
         self._tripped: InstrumentError | None = None
         _refuse_more_than_the_table_can(limits, table.limits)
         self.limits = limits.table_limits
@@ -127,17 +127,18 @@ class LimitedTable:
         return None
 
     def _acceleration(self, state: TableState) -> float:
-        """Mean magnitude over the last half second, °/s²; 0 before that much was seen."""
+        """Mean magnitude over the last half second, as little as the doubt about when it was seen allows,
+        °/s²; 0 before that much was seen."""
         looks = self._looks
         if looks and state.t_s <= looks[-1][0]:
             return 0.0
-        looks.append((state.t_s, state.rate_dps))
+        looks.append((state.t_s, state.rate_dps, state.doubt_s))
         while len(looks) > 2 and state.t_s - looks[1][0] >= _WINDOW_S:
             looks.popleft()
         passed = state.t_s - looks[0][0]
         if not _WINDOW_S <= passed <= _LONGEST_WINDOW_S:
             return 0.0
-        return abs(state.rate_dps - looks[0][1]) / passed
+        return abs(state.rate_dps - looks[0][1]) / (passed + looks[0][2] + state.doubt_s)
 
     def _stopped(self, excess: Message) -> InstrumentError:
         try:

@@ -30,6 +30,11 @@ class RealClock:
         self._interrupted = threading.Event()
 
     @property
+    def wire_speed(self) -> float:
+        """See :mod:`ahrs_lab.instruments.patience`."""
+        return self.speed
+
+    @property
     def step_s(self) -> float | None:
         """See :class:`~ahrs_lab.instruments.interfaces.Clock`."""
         return _WALL_STEP_S * self.speed

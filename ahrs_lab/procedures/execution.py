@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
 
 from ahrs_lab.errors import InstrumentError
 from ahrs_lab.instruments.interfaces import Bench
+from ahrs_lab.instruments.patience import ENOUGH_S, patient_s
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.commands import (
     CheckMounting,
@@ -34,6 +36,8 @@ from ahrs_lab.recording.samples import Samples, concatenate
 
 _TURNED_TOLERANCE_DEG = 0.1
 _CURRENT_POLL_S = 1.0
+_SEEN_S = 0.5
+"""Wall time in which a wire brings enough reports to judge a table by."""
 
 
 class Waiting(Protocol):
@@ -170,6 +174,7 @@ class Execution:
 
     def _point_to(self, command: PointTo) -> None:
         table, clock = self._bench.table, self._bench.clock
+        command = replace(command, hold_s=patient_s(clock, command.hold_s, _SEEN_S))
         wanted = self._bench.north_deg + command.azimuth_deg
         now_deg = table.state().angle_deg
         target = wanted + 360.0 * round((now_deg - wanted) / 360.0)
@@ -179,7 +184,7 @@ class Execution:
         travel = abs(target - now_deg)
         expected = travel / command.rate_dps + (command.rate_dps / acceleration if travel > 1e-3 else 0.0)
         start = clock.now_s()
-        self._watch.trace.keep_s = max(5.0, command.hold_s + 1.0)
+        self._watch.trace.keep(command.hold_s + 1.0)
         wait = min(expected + command.hold_s, command.timeout_s)
         while True:
             self._tell(Message("Table turns to {azimuth}°", azimuth=figure(command.azimuth_deg)), wait)
@@ -203,9 +208,10 @@ class Execution:
 
     def _settle_rate(self, command: SettleRate) -> None:
         table, clock = self._bench.table, self._bench.clock
+        command = replace(command, hold_s=patient_s(clock, command.hold_s, _SEEN_S))
         change = abs(command.rate_dps - table.state().rate_dps)
         start = clock.now_s()
-        self._watch.trace.keep_s = max(5.0, command.hold_s + 1.0)
+        self._watch.trace.keep(command.hold_s + 1.0)
         acceleration = max(table.limits.max_acceleration_dps2, 1e-3)
         wait = min(change / acceleration + command.hold_s + 0.05, command.timeout_s)
         while True:
@@ -243,9 +249,11 @@ class Execution:
             table.move_to(target, abs(command.rate_dps))
 
         self._target_deg = target
+        # A wire that is behind bench time tells the table late to turn and to come to rest.
+        late_s = patient_s(self._bench.clock, ENOUGH_S) - ENOUGH_S
         return self._recorder.record(
             command.segment,
-            command.duration_s,
+            command.duration_s + late_s,
             [(command.lead_s, turn)],
             lambda: self._sure_of_turns(command, target),
         )

@@ -2,9 +2,10 @@
 sample.
 
 Device time and bench time: a sample's ``t_s`` is the device's; on the bench it ended at ``t_s`` plus the
-smallest delay of arrival seen since the stream began (:attr:`Watch.offset_s`). A constant latency of the link
-is not seen: it shifts the table's columns by rate × latency, which matters neither to a rate nor to turns
-from rest to rest.
+smallest delay of arrival seen before the segment began (:attr:`Watch.offset_s`). A constant latency of the
+link is not seen: it shifts the table's columns by rate × latency, which matters neither to a rate nor to
+turns from rest to rest. A smaller delay that is seen meanwhile counts from the next segment on: the table
+would seem to jump.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 
 from ahrs_lab.errors import AhrsLabError, InstrumentError
 from ahrs_lab.instruments.interfaces import Bench
+from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.events import Activity, Event, SegmentFinished, SegmentStarted, Warned
 from ahrs_lab.procedures.figures import figure
@@ -194,11 +196,11 @@ class Recorder:
                 self._writer.append(rows)
                 sums.add(rows)
 
-        watch.sink = take
+        watch.sink, watch.offset_held = take, True
         try:
             self._wait_for_rows(segment, start, cut, list(actions))
         finally:
-            watch.sink = None
+            watch.sink, watch.offset_held = None, False
         if not cut.rows:
             raise InstrumentError(
                 "No sample of {segment} came from the device although it sends: its time column does not "
@@ -211,19 +213,20 @@ class Recorder:
     def _wait_for_rows(self, segment: Segment, start: float, cut: _Cut, actions: list[Action]) -> None:
         clock, watch = self._bench.clock, self._watch
         interval = watch.interval_s
-        latest = cut.duration_s * 1.02 + 5.0
+        latest = cut.duration_s * 1.02 + patient_s(clock, 5.0)
         while not cut.complete:
             passed = clock.now_s() - start
             if actions and passed >= actions[0][0] - 1e-9:
                 actions.pop(0)[1]()
                 continue
-            if passed > latest:
+            arrived = watch.last_arrival_s - start
+            if arrived > latest:
                 raise InstrumentError(
                     "The device's clock has not reached the {duration} s of {segment} after {passed} s: its "
                     "time column or its sample rate is wrong. Check the device's output settings.",
                     duration=figure(cut.duration_s),
                     segment=segment.name,
-                    passed=round(passed, 1),
+                    passed=round(arrived, 1),
                 )
             left = (actions[0][0] if actions else cut.duration_s + interval) - passed
             chunk = left if left > interval / 2 or actions else max(2.0 * interval, 0.01)

@@ -9,29 +9,55 @@ from ahrs_lab.instruments.interfaces import TableLog, TableState
 
 Array = NDArray[np.float64]
 
-_KEEP_S = 5.0
-"""Longer than any latency of a sample; what a settling table is judged by is kept longer on request."""
-_AHEAD_S = 1.0
-"""Of a report older than this nothing is concluded."""
+_KEEP = 5.0
+"""Times ``ahead_s``: longer than any latency of a sample."""
 
 
 class TableTrace:
-    """Angle and rate against bench time, from the table's log and the states that were seen."""
+    """Angle and rate against bench time, from the table's log and the states that were seen.
 
-    def __init__(self) -> None:
-        self._t_s = self._angle_deg = self._rate_dps = np.empty(0)
-        self.keep_s = _KEEP_S
+    Of a report older than ``ahead_s`` nothing is concluded. ``reports_rate``: whether the rate is the table's
+    own word.
+    """
+
+    def __init__(self, ahead_s: float = 1.0) -> None:
+        self._reports: Array = np.empty((4, 0))
+        """Rows: time, angle, rate, doubt about the time."""
+        self._ahead_s = ahead_s
+        self._keep_s = _KEEP * ahead_s
+        self._exact = True
+        self.reports_rate = True
+
+    def keep(self, seconds: float) -> None:
+        """From now on remember at least ``seconds``."""
+        self._keep_s = max(_KEEP * self._ahead_s, seconds)
 
     def add(self, log: TableLog, state: TableState) -> None:
-        """Append a log and the state seen after it; forget what is older than ``keep_s`` before the log."""
-        end = self._t_s[-1] if len(self._t_s) else -np.inf
-        fresh = log.t_s > end
-        late = state.t_s > (log.t_s[-1] if len(log.t_s) else end)
-        tail = ([state.t_s], [state.angle_deg], [state.rate_dps]) if late else ([], [], [])
-        keep = slice(int(np.searchsorted(self._t_s, end - self.keep_s)) if len(self._t_s) else 0, None)
-        self._t_s = np.concatenate([self._t_s[keep], log.t_s[fresh], tail[0]])
-        self._angle_deg = np.concatenate([self._angle_deg[keep], log.angle_deg[fresh], tail[1]])
-        self._rate_dps = np.concatenate([self._rate_dps[keep], log.rate_dps[fresh], tail[2]])
+        """Append a log and the state seen after it; forget what is older than is to be kept."""
+        t_s = self._reports[0]
+        end = t_s[-1] if len(t_s) else -np.inf
+        doubt = np.zeros(len(log.t_s)) if log.doubt_s is None else log.doubt_s
+        self._exact, self.reports_rate = log.doubt_s is None, log.reports_rate
+        fresh = np.vstack([log.t_s, log.angle_deg, log.rate_dps, doubt])[:, log.t_s > end]
+        tail = np.empty((4, 0))
+        if state.t_s > (log.t_s[-1] if len(log.t_s) else end):
+            tail = np.array([[state.t_s], [state.angle_deg], [state.rate_dps], [state.doubt_s]])
+        first = int(np.searchsorted(t_s, end - self._keep_s)) if len(t_s) else 0
+        self._reports = np.hstack([self._reports[:, first:], fresh, tail])
+
+    def columns(self, t_s: Array) -> dict[str, Array]:
+        """What a recording keeps of the table at bench times, shapes (n,).
+
+        ``table_angle_deg`` (unwrapped); ``table_rate_dps`` where the table tells one; ``table_doubt_s`` where
+        the times of its reports are not exact: by how much the time of the angle may be wrong at most.
+        """
+        angle, rate = self.at(t_s)
+        found = {"table_angle_deg": angle}
+        if self.reports_rate:
+            found["table_rate_dps"] = rate
+        if not self._exact:
+            found["table_doubt_s"] = np.interp(t_s, self._reports[0], self._reports[3])
+        return found
 
     def at(self, t_s: Array) -> tuple[Array, Array]:
         """Angle (deg, unwrapped) and rate (°/s) at bench times, shapes (n,), linear between reports.
@@ -39,21 +65,23 @@ class TableTrace:
         After the last report the table goes on at the rate of that report: a table that is asked some times a
         second is always a little behind the samples.
         """
-        angle, rate = np.interp(t_s, self._t_s, self._angle_deg), np.interp(t_s, self._t_s, self._rate_dps)
-        if len(self._t_s):
-            angle += rate * np.clip(t_s - self._t_s[-1], 0.0, _AHEAD_S)
+        seen, angles, rates, _ = self._reports
+        angle, rate = np.interp(t_s, seen, angles), np.interp(t_s, seen, rates)
+        if len(seen):
+            angle += rate * np.clip(t_s - seen[-1], 0.0, self._ahead_s)
         return angle, rate
 
     def since(self, t_s: float) -> tuple[Array, Array, Array]:
         """Times, angles, rates reported from ``t_s`` on."""
-        first = int(np.searchsorted(self._t_s, t_s - 1e-9))
-        return self._t_s[first:], self._angle_deg[first:], self._rate_dps[first:]
+        seen, angles, rates, _ = self._reports
+        first = int(np.searchsorted(seen, t_s - 1e-9))
+        return seen[first:], angles[first:], rates[first:]
 
     def mean_rate_dps(self, window_s: float) -> float | None:
         """Angle over time of the last ``window_s``; None before anything was reported."""
-        if len(self._t_s) < 2:
+        if not len(self._reports[0]):
             return None
-        t, angle, _ = self.since(float(self._t_s[-1]) - window_s)
+        t, angle, _ = self.since(float(self._reports[0, -1]) - window_s)
         if len(t) < 2 or t[-1] <= t[0]:
             return None
         return float((angle[-1] - angle[0]) / (t[-1] - t[0]))

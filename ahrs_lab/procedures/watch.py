@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ahrs_lab.errors import InstrumentError
 from ahrs_lab.instruments.interfaces import Bench, RoomReading, SupplyReading, TableState
+from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.procedures.table_trace import TableTrace
 from ahrs_lab.recording.samples import Samples
 
@@ -43,9 +44,11 @@ class Watch:
         self._on_samples = on_samples
         self._on_reading = on_reading
         self._raise_if_stopped = raise_if_stopped
-        self.trace = TableTrace()
+        self.trace = TableTrace(patient_s(bench.clock, _SILENCE_S))
         self.sink: Callable[[Samples], None] | None = None
         """Who wants the samples that arrive while time passes, besides the screen."""
+        self.offset_held = False
+        """Set while a segment is recorded: its times on the bench all have the same offset."""
         self.powered = False
         self._streaming = False
         self._last_arrival_s = 0.0
@@ -62,6 +65,11 @@ class Watch:
         """Bench time minus device time: the smallest delay of arrival seen since the stream began, so that a
         late packet does not shift it. A constant latency of the link cannot be told from it."""
         return self._offset_s
+
+    @property
+    def last_arrival_s(self) -> float:
+        """Bench time at which the last sample that was read came."""
+        return self._last_arrival_s
 
     def start_stream(self) -> None:
         """The unit begins to stream; what it sent before is dropped."""
@@ -119,8 +127,7 @@ class Watch:
         self.look()
 
     def _with_table(self, samples: Samples) -> Samples:
-        angle, rate = self.trace.at(samples["t_s"] + (self._offset_s or 0.0))
-        return samples.with_columns({"table_angle_deg": angle, "table_rate_dps": rate})
+        return samples.with_columns(self.trace.columns(samples["t_s"] + (self._offset_s or 0.0)))
 
     def read_supply(self) -> SupplyReading:
         """Raises InstrumentError where the output is off though it should be on."""
@@ -136,7 +143,7 @@ class Watch:
     @property
     def _silence_limit_s(self) -> float:
         least = _FIRST_SAMPLE_S if self._offset_s is None else _SILENCE_S
-        return max(least, _SILENCE_INTERVALS * self.interval_s)
+        return patient_s(self._bench.clock, max(least, _SILENCE_INTERVALS * self.interval_s))
 
     def _arrival_gap(self, samples: Samples) -> float:
         """The longest time without an arrival up to now, s; keeps the time offset up to date."""
@@ -149,7 +156,10 @@ class Watch:
             gap = float(np.max(np.diff(arrivals, prepend=self._last_arrival_s)))
             self._last_arrival_s = float(arrivals[-1])
             smallest = float(np.min(arrivals - samples["t_s"]))
-            self._offset_s = smallest if self._offset_s is None else min(self._offset_s, smallest)
+            if self._offset_s is None:
+                self._offset_s = smallest
+            elif not self.offset_held:
+                self._offset_s = min(self._offset_s, smallest)
         return max(gap, now - self._last_arrival_s)
 
 

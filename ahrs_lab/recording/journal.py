@@ -43,6 +43,7 @@ class Journal:
         self._written_at = clock()
         self._ended = False
         self._file: BinaryIO = path.open("wb", buffering=0)
+        _load_arrow()
 
     def __len__(self) -> int:
         return sum(len(block) for block in self.blocks)
@@ -133,6 +134,13 @@ def recover(path: Path) -> Recovered | None:
     return Recovered(
         segment, Samples({name: table.column(name).to_numpy() for name in table.column_names}), complete
     )
+
+
+def _load_arrow() -> None:
+    """Before the first sample: loading takes seconds on a busy computer, in which a run would stand still."""
+    import pyarrow as pa
+
+    pa.array(np.empty(0))
 
 
 def _write_all(file: BinaryIO, content: memoryview) -> None:

@@ -1,7 +1,7 @@
 """Did the table do what the segment says? By its measured angle and rate where recorded, else by the gyro.
 
 Tolerance of a rate is twice what clause 6 allows a table (U_rel 2×10⁻², 2×10⁻³, 2×10⁻⁴ by band), judged over
-the angle that the clause averages over.
+the angle that the clause averages over, as closely as the times of the table's readings allow.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.clean_rows import CleanRows
 from ahrs_lab.recording.finding_list import FindingList
+from ahrs_lab.recording.rate_hold import Hold
 from ahrs_lab.recording.samples import Array
 from ahrs_lab.recording.segment import RateUnit, Segment
 
@@ -62,9 +63,9 @@ def _check_rate(segment: Segment, rows: CleanRows, found: FindingList) -> None:
         return
     if len(t_s) < 2 or demanded == 0:
         return
-    tolerance = 2 * rate_band(demanded).relative
-    mean = float((travelled[-1] - travelled[0]) / (t_s[-1] - t_s[0]))
-    if abs(mean / demanded - 1) > tolerance:
+    hold = _hold(rows, demanded, travelled)
+    mean = hold.wrong_mean()
+    if mean is not None:
         found.add(
             "rate",
             Message(
@@ -76,23 +77,44 @@ def _check_rate(segment: Segment, rows: CleanRows, found: FindingList) -> None:
             "unusable",
         )
         return
-    window = _window_rows(demanded, rows.step_s)
-    if len(t_s) <= window:
-        return
-    local = (travelled[window:] - travelled[:-window]) / (t_s[window:] - t_s[:-window])
-    worst = int(np.argmax(np.abs(local - demanded)))
-    if abs(local[worst] / demanded - 1) > tolerance:
-        first = int(np.argmax(np.abs(local / demanded - 1) > tolerance))
+    lapse = hold.lapse()
+    if lapse is not None:
         found.add(
             "rate",
             Message(
                 "the table did not hold its rate: {worst} °/s at {time} s, demanded were {demanded} °/s.",
-                worst=float(f"{local[worst]:.7g}"),
-                time=float(t_s[worst + window]),
+                worst=float(f"{lapse.rate_dps:.7g}"),
+                time=float(t_s[lapse.worst_row]),
                 demanded=demanded,
             ),
-            int(rows.lines[first + window]),
+            int(rows.lines[lapse.first_row]),
         )
+    elif hold.reported_dps is None and not hold.angles_tell:
+        found.add("rate", _untold(hold), int(rows.lines[0]))
+
+
+def _hold(rows: CleanRows, demanded: float, travelled: Array) -> Hold:
+    doubt = rows.samples.get("table_doubt_s")
+    rate = rows.samples.get("table_rate_dps")
+    return Hold(
+        demanded_dps=demanded,
+        tolerance=2 * rate_band(demanded).relative,
+        window=_window_rows(demanded, rows.step_s),
+        t_s=rows.samples["t_s"],
+        travelled_deg=travelled,
+        doubt_s=np.zeros(len(travelled)) if doubt is None else np.abs(np.nan_to_num(doubt)),
+        reported_dps=rate if rate is not None and np.all(np.isfinite(rate)) else None,
+    )
+
+
+def _untold(hold: Hold) -> Message:
+    return Message(
+        "whether the table held {demanded} °/s cannot be told closer than {known} %: it tells no rate, and "
+        "the times of its angles are known to ±{doubt} s only.",
+        demanded=hold.demanded_dps,
+        known=float(f"{100 * (hold.tolerance + hold.mean()[1]):.2g}"),
+        doubt=float(f"{np.median(hold.doubt_s):.2g}"),
+    )
 
 
 def _check_gyro_steady(segment: Segment, rows: CleanRows, found: FindingList) -> None:

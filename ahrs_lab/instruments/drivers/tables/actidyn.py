@@ -110,13 +110,13 @@ class ActidynDialect:
         """See :class:`~ahrs_lab.instruments.drivers.tables.dialect.TableDialect`."""
         begin = self._clock.now_s()
         line = self._talk.ask(encode_command("PRV", str(self._settings.axis), "?"), tries=2)
-        moment = 0.5 * (begin + self._clock.now_s())
+        end = self._clock.now_s()
         values = parse_values(line)
         if values is None or len(values) < _LEAST_VALUES:
             raise InstrumentError(
                 "The table answers “{text}” to PRV, which is no position and rate.", text=line
             )
-        return TableReading(moment, values[0], values[1])
+        return TableReading(0.5 * (begin + end), values[0], values[1], doubt_s=0.5 * (end - begin))
 
     def stay(self) -> None:
         """The table's own watchdog wants to hear from us."""

@@ -18,6 +18,7 @@ from ahrs_lab.instruments.drivers.tables.soft_limits import SoftLimits
 from ahrs_lab.instruments.interfaces import Clock
 from ahrs_lab.instruments.links.link import Link
 from ahrs_lab.instruments.links.link_settings import LinkSettings
+from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.instruments.protocols.acutrol import (
     INTERLOCK_STATES,
     Reply,
@@ -156,17 +157,17 @@ class AcutrolDialect:
     def read(self) -> TableReading:
         """Angle, rate and now and then the state of the interlock."""
         axis = self._settings.axis
-        moment, text = self._asked_quickly(f":Read:Pos? {axis};Rate? {axis}")
+        moment, doubt, text = self._asked_quickly(f":Read:Pos? {axis};Rate? {axis}")
         angle, rate = _numbers(text, 2)
         fault: str | Message = ""
         if self._looks % _STATUS_EVERY == 0:
             fault = self._fault()
         self._looks += 1
-        return TableReading(moment, angle, rate, fault)
+        return TableReading(moment, angle, rate, fault, doubt)
 
-    def _asked_quickly(self, request: str) -> tuple[float, str]:
-        """The answer and when it was true. An answer that took long, because a computer was busy, may be from
-        any moment of that time: then ask again, and keep the one that took least."""
+    def _asked_quickly(self, request: str) -> tuple[float, float, str]:
+        """When the answer was true, by how much that may be wrong, and the answer. One that took long, as a
+        computer was busy, may be of any moment of that time: then ask again, keep what took least."""
         best = (float("inf"), 0.0, "")
         quick = _QUICK_S * float(getattr(self._clock, "speed", 1.0))
         for _ in range(_TRIES):
@@ -180,7 +181,7 @@ class AcutrolDialect:
             best = min(best, (end - begin - asked - answered, moment, text))
             if best[0] <= quick:
                 break
-        return best[1], best[2]
+        return best[1], 0.5 * max(best[0], 0.0), best[2]
 
     def stay(self) -> None:
         """Nothing to do: the table keeps its state."""
@@ -226,7 +227,7 @@ class AcutrolTable(PolledTable):
     def enable(self) -> None:
         """Acknowledge faults and servo on. Raises InstrumentError where the interlock stays open."""
         super().enable()
-        end = self._clock.now_s() + _CLOSING_S
+        end = self._clock.now_s() + patient_s(self._clock, _CLOSING_S)
         while True:
             with self._talk:
                 interlock = self._acl.interlock()

@@ -140,7 +140,7 @@ class AsciiTableDialect:
         """See :class:`~ahrs_lab.instruments.drivers.tables.dialect.TableDialect`."""
         begin = self._clock.now_s()
         answer = self._talk.ask(self.template.encode(self.template.render("query")[0]), tries=2)
-        moment = 0.5 * (begin + self._clock.now_s())
+        end = self._clock.now_s()
         reading = self.template.parse(answer)
         if reading is None:
             raise InstrumentError(
@@ -148,7 +148,8 @@ class AsciiTableDialect:
                 "fit.",
                 text=answer,
             )
-        return TableReading(moment, reading.angle_deg, reading.rate_dps, reading.fault)
+        moment, doubt = 0.5 * (begin + end), 0.5 * (end - begin)
+        return TableReading(moment, reading.angle_deg, reading.rate_dps, reading.fault, doubt)
 
     def stay(self) -> None:
         """The template's ``keep_alive``, where there is one."""

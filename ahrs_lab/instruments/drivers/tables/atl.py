@@ -101,8 +101,9 @@ class AtlDialect:
         """See :class:`~ahrs_lab.instruments.drivers.tables.dialect.TableDialect`."""
         begin = self._clock.now_s()
         angle = self._number("PPO")
-        moment = 0.5 * (begin + self._clock.now_s())
-        return TableReading(moment, angle, self._number("PVE"))
+        end = self._clock.now_s()
+        rate = self._number("PVE")
+        return TableReading(0.5 * (begin + end), angle, rate, doubt_s=0.5 * (end - begin))
 
     def stay(self) -> None:
         """Nothing is known to be needed."""

@@ -13,12 +13,14 @@ from ahrs_lab.messages import Message
 @dataclass(frozen=True)
 class TableReading:
     """One look. ``angle_deg`` as the table reports it, which may wrap. ``rate_dps`` None where it tells none.
-    ``fault`` is the table's own text."""
+    ``fault`` is the table's own text. The angle was read at most ``doubt_s`` before or after ``t_s``: between
+    the request and its answer."""
 
     t_s: float
     angle_deg: float
     rate_dps: float | None
     fault: str | Message = ""
+    doubt_s: float = 0.0
 
 
 class TableDialect(Protocol):

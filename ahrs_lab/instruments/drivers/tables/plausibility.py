@@ -15,12 +15,13 @@ class Look:
     t_s: float
     angle_deg: float
     rate_dps: float
+    doubt_s: float = 0.0
 
 
 @dataclass(frozen=True)
 class Slack:
     """How far from where it should be an angle may be: ``angle_deg``, and ``time_s`` of doubt about when it
-    was read."""
+    was read beyond what the stamps admit."""
 
     angle_deg: float
     time_s: float
@@ -41,7 +42,7 @@ def fits(last: Look, reading: TableReading, slack: Slack, acceleration_dps2: flo
     change = reading.angle_deg - expected
     if wraps:
         change = wrap_180(change)
-    allowed = slack.angle_deg + abs(reading.rate_dps) * slack.time_s
+    allowed = slack.angle_deg + abs(reading.rate_dps) * (slack.time_s + last.doubt_s + reading.doubt_s)
     # Where the rate has changed, nobody knows when within the time between.
     allowed += 0.5 * abs(reading.rate_dps - last.rate_dps) * passed + 4.0 * acceleration_dps2 * passed**2
     return abs(change) <= allowed

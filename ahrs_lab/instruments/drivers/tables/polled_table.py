@@ -22,15 +22,18 @@ from ahrs_lab.instruments.angles import TurnCounter, wrap_180
 from ahrs_lab.instruments.drivers.tables.dialect import TableDialect, TableReading
 from ahrs_lab.instruments.drivers.tables.plausibility import JUMPED, ODD, Look, Slack, fits
 from ahrs_lab.instruments.drivers.tables.soft_limits import SoftLimits
-from ahrs_lab.instruments.drivers.tables.turning import Demand, Move
+from ahrs_lab.instruments.drivers.tables.turning import REACH_DEG, Demand, Move
 from ahrs_lab.instruments.interfaces import Clock, TableLog, TableState
 from ahrs_lab.instruments.links.link import LinkLostError
 from ahrs_lab.instruments.links.port_reader import FIRST_BACK_OFF_S, LONGEST_BACK_OFF_S
+from ahrs_lab.instruments.patience import patient_s, wall_s
 from ahrs_lab.instruments.settings import within
 from ahrs_lab.messages import Message
 
 _LOG_LENGTH = 400_000
 _STALE_S = 1.0
+_LATE_LOOK_S = 0.15
+"""Wall time between two looks of a busy computer."""
 
 
 @dataclass(frozen=True)
@@ -69,6 +72,7 @@ class PolledTable:
         self._told_to_move_s = float("-inf")
         self._turns = TurnCounter()
         self._look: Look | None = None
+        self._reports_rate = True
         self._interval_s = 1.0 / self._polling.poll_hz
         self._log: deque[Look] = deque(maxlen=_LOG_LENGTH)
         self._mode: Literal["off", "rate", "position"] = "off"
@@ -171,7 +175,7 @@ class PolledTable:
             pause, interval = self._dialect.pause_s, self._interval_s
             move = Move(
                 angle_deg,
-                rate_dps,
+                self._followed_dps(rate_dps),
                 self.limits.max_acceleration_dps2,
                 delay_s=2.0 * interval + pause,
                 prepare_s=3.0 * pause + 4.0 * interval,
@@ -190,6 +194,12 @@ class PolledTable:
                 if generation == self._generation:
                     self._mode, self._demand = "rate", demand
                     self._pending.extend(preparing)
+
+    def _followed_dps(self, rate_dps: float) -> float:
+        """A rate at which the end of a move is not missed between two looks that are late: slower where bench
+        time runs faster than the wire."""
+        late_s = wall_s(self._clock, _LATE_LOOK_S) - _LATE_LOOK_S
+        return min(rate_dps, REACH_DEG / late_s) if late_s > 0.0 else rate_dps
 
     def stop(self) -> None:
         """Rate to zero, from any state and any thread, past whatever is being said."""
@@ -211,7 +221,7 @@ class PolledTable:
         self._raise_if_lost()
         look = self._seen()
         now = self._clock.now_s()
-        if now - look.t_s > max(_STALE_S, 5.0 / self._polling.poll_hz):
+        if now - look.t_s > patient_s(self._clock, max(_STALE_S, 5.0 / self._polling.poll_hz)):
             raise InstrumentError(
                 "The rate table has not answered for {silence} s: check its link.",
                 silence=round(now - look.t_s, 1),
@@ -224,6 +234,7 @@ class PolledTable:
             moving=self._is_moving(look),
             enabled=self._enabled,
             fault=str(self._own_fault or self._table_fault),
+            doubt_s=look.doubt_s,
         )
 
     def log(self) -> TableLog:
@@ -231,8 +242,10 @@ class PolledTable:
         looks: list[Look] = []
         while self._log:
             looks.append(self._log.popleft())
-        columns = np.array([(look.t_s, look.angle_deg, look.rate_dps) for look in looks]).reshape(-1, 3)
-        return TableLog(*columns.T.copy())
+        rows = [(look.t_s, look.angle_deg, look.rate_dps, look.doubt_s) for look in looks]
+        columns = np.array(rows).reshape(-1, 4)
+        t_s, angle, rate, doubt = columns.T.copy()
+        return TableLog(t_s, angle, rate, doubt, self._reports_rate)
 
     def keep_alive(self) -> None:
         """The application's heart beats. From the first call on, the table is stopped when the next one does
@@ -293,6 +306,7 @@ class PolledTable:
 
     def _take(self, reading: TableReading) -> None:
         rate = reading.rate_dps
+        self._reports_rate = rate is not None
         if rate is None:
             rate = self._rate_from_angles(reading)
         angle = reading.angle_deg
@@ -300,7 +314,7 @@ class PolledTable:
             angle = self._turns.unwrap(reading.t_s, angle, rate)
         if self._look is not None:
             self._interval_s = max(1.0 / self._polling.poll_hz, reading.t_s - self._look.t_s)
-        self._look = Look(reading.t_s, angle, rate)
+        self._look = Look(reading.t_s, angle, rate, reading.doubt_s)
         self._log.append(self._look)
         if reading.fault:
             self._table_fault = reading.fault
@@ -323,7 +337,8 @@ class PolledTable:
         look = self._seen()
         now = self._clock.now_s()
         if self._mode != "off":
-            if self._alive_s is not None and now - self._alive_s > self._polling.watchdog_s:
+            longest = wall_s(self._clock, self._polling.watchdog_s)
+            if self._alive_s is not None and now - self._alive_s > longest:
                 raise InstrumentError(
                     "The table was stopped: the application has given no sign of life for {silence} s.",
                     silence=round(now - self._alive_s, 1),

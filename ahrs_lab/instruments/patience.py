@@ -1,0 +1,23 @@
+"""Time limits where bench time runs faster than the wires of the bench.
+
+A clock that maps wall time to bench time has ``wire_speed``, bench seconds per wall second. A clock without
+it has wires that keep bench time, or none.
+"""
+
+from __future__ import annotations
+
+from ahrs_lab.instruments.interfaces import Clock
+
+ENOUGH_S = 1.0
+"""Wall time after which a wire on this computer would have brought what it brings."""
+
+
+def patient_s(clock: Clock, seconds: float, enough_s: float = ENOUGH_S) -> float:
+    """Bench time to wait for a wire: ``seconds``, and never less than as much wall time, up to
+    ``enough_s``."""
+    return max(seconds, wall_s(clock, min(seconds, enough_s)))
+
+
+def wall_s(clock: Clock, seconds: float) -> float:
+    """Bench time that passes in ``seconds`` of wall time."""
+    return seconds * float(getattr(clock, "wire_speed", 1.0))

@@ -25,6 +25,7 @@ from ahrs_lab.instruments.settings import Difference
 from ahrs_lab.instruments.supervisor.client import Supervisor
 from ahrs_lab.instruments.supervisor.last_stop import stop_bench
 from ahrs_lab.instruments.supervisor.making import table_wire
+from ahrs_lab.laboratory.bench_speed import bench_speed, check_said_speed
 from ahrs_lab.laboratory.instrument_live import AhrsLook, TableLive, UnplugTest, read_room, read_supply
 from ahrs_lab.laboratory.instrument_station import Station, StationView
 from ahrs_lab.laboratory.manual_table import OperatorsAnswer
@@ -36,6 +37,7 @@ _TABLE_LOOK_S = 0.05
 _END_REACTION_S = 0.6
 """Before the limits themselves would stop the table as for a fault."""
 FIRST_JOG_DPS = 30.0
+_SOURCE = "bench"
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,12 @@ class InstrumentDesk:
         self._drivers = drivers or find_drivers()
         self._supervised = supervised
         self._report = report
-        self._clock = clock or RealClock(float(bench.get("speed", 1.0)))
+        self._speed, self._speed_refused = 1.0, None
+        try:
+            self._speed = bench_speed(bench, None, _SOURCE)
+        except InputError as error:
+            self._speed_refused = error  # told where somebody connects
+        self._clock = clock or RealClock(self._speed)
         self._supervisor: Supervisor | None = None
         self._limited: LimitedTable | None = None
         self._jog = JogLimits(FIRST_JOG_DPS)
@@ -91,7 +98,12 @@ class InstrumentDesk:
                 look_s=_TABLE_LOOK_S,
             ),
             "ahrs": Station("ahrs", lambda: self._make("ahrs"), self._look_at_ahrs, opened=self._ahrs_opened),
-            "supply": Station("supply", lambda: self._make("supply"), read_supply),
+            "supply": Station(
+                "supply",
+                lambda: self._make("supply"),
+                read_supply,
+                opened=lambda supply: self._check_speed("supply", supply),
+            ),
             "room": Station("room", lambda: self._make("room"), read_room),
         }
 
@@ -130,22 +142,29 @@ class InstrumentDesk:
             station.disconnect()
         self._end_supervisor()
 
+    def _check_speed(self, part: Kind, instrument: Any) -> None:
+        check_said_speed(self._speed, part, str(instrument.identify()), _SOURCE)
+
     def _make(self, part: Kind) -> Any:
+        if self._speed_refused is not None:
+            raise self._speed_refused
         return create_instrument(part, self._bench[part], Surroundings(self._clock), self._drivers)
 
     def _make_table(self) -> Any:
+        if self._speed_refused is not None:
+            raise self._speed_refused
         table = self._bench["table"]
         around = Surroundings(self._clock, ask=self.answer.ask)
         if self._supervised and table_wire(table, self._clock, self._drivers) is not None:
             self._end_supervisor()
-            speed = float(self._bench.get("speed", 1.0))
-            supervisor = Supervisor(table, self._bench.get("supply"), speed=speed, report=self._report)
+            supervisor = Supervisor(table, self._bench.get("supply"), speed=self._speed, report=self._report)
             supervisor.start()
             self._supervisor = supervisor
             around = replace(around, link=supervisor.table_links)
         return create_instrument("table", table, around, self._drivers)
 
     def _table_opened(self, table: Any) -> None:
+        self._check_speed("table", table)
         self._limit(table, self._jog)
 
     def _let_table_go(self, table: Any) -> None:

@@ -40,6 +40,7 @@ from ahrs_lab.instruments.links.link_settings import make_link
 from ahrs_lab.instruments.real_clock import RealClock
 from ahrs_lab.instruments.registry import Drivers, Kind, LinkMaker, Surroundings, create_instrument
 from ahrs_lab.instruments.settings import settings_from_toml, within
+from ahrs_lab.laboratory.bench_speed import bench_speed, check_said_speed
 from ahrs_lab.laboratory.hands import SimulatedHands, TerminalOperator
 from ahrs_lab.recording.orientation import Orientation
 from ahrs_lab.recording.samples import GYRO, Samples
@@ -171,7 +172,8 @@ def linked_bench(
     clock: Clock | None = None,
 ) -> LinkedBench:
     """Connect the instruments of a bench file; raises InputError for its settings, InstrumentError where one
-    does not answer. ``speed`` other than 1 is refused unless the bench is a served, simulated one."""
+    does not answer. ``speed`` other than 1 is refused unless table and supply say that they are simulated and
+    run at that speed; a ``clock`` that is given is another matter."""
     unknown = [key for key in data if key not in (*_TABLES, "kind", "north_deg", "speed")]
     if unknown:
         raise InputError(
@@ -180,7 +182,8 @@ def linked_bench(
     site = settings_from_toml(SiteSettings, _table(data, "site", source), "site")
     operator_settings = settings_from_toml(OperatorSettings, data.get("operator", {}), "operator")
     simulated = operator_settings.kind == "simulated-hands"
-    clock = clock or RealClock(_speed(data, speed, source, simulated))
+    checked_speed = None if clock is not None else bench_speed(data, speed, source)
+    clock = clock or RealClock(checked_speed or 1.0)
     asked = TerminalOperator()
     hands = SimulatedHands(operator_settings.host, operator_settings.port)
     operator = FollowedOperator(hands if simulated else asked)
@@ -196,6 +199,8 @@ def linked_bench(
             opened.append(made[kind])
             if hasattr(made[kind], "open"):
                 made[kind].open()
+            if checked_speed is not None and kind != "room":
+                check_said_speed(checked_speed, kind, str(made[kind].identify()), source)
     except BaseException:
         _close(opened)
         raise
@@ -232,17 +237,6 @@ def _number(data: Mapping[str, Any], key: str, default: float, source: str) -> f
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < 1e6:
         raise InputError("{source}: “{key}” has to be a number.", source=source, key=key)
     return float(value)
-
-
-def _speed(data: Mapping[str, Any], asked: float | None, source: str, simulated: bool) -> float:
-    speed = _number(data, "speed", 1.0, source) if asked is None else asked
-    if speed != 1.0 and not simulated:
-        raise InputError(
-            "{source}: real instruments keep real time; a speed of {speed} is only for simulated ones.",
-            source=source,
-            speed=speed,
-        )
-    return speed
 
 
 def _close(opened: list[Any]) -> None:

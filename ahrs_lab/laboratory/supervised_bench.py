@@ -21,6 +21,7 @@ from ahrs_lab.instruments.registry import Drivers, Kind, Surroundings, create_in
 from ahrs_lab.instruments.settings import settings_from_toml
 from ahrs_lab.instruments.supervisor.client import Supervisor
 from ahrs_lab.instruments.supervisor.making import table_wire
+from ahrs_lab.laboratory.bench_speed import bench_speed
 from ahrs_lab.laboratory.linked_benches import LinkedBench, SiteSettings, linked_bench
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.segment import DeviceDescription, Site
@@ -43,8 +44,8 @@ def supervised_bench(
         )
     if table_wire(table, RealClock(), drivers) is None:
         return _limited(linked_bench(data, source, speed=speed, drivers=drivers), table)
-    bench_speed = float(data.get("speed", 1.0)) if speed is None else speed
-    supervisor = Supervisor(table, data.get("supply"), speed=bench_speed, report=report)
+    known = bench_speed(data, speed, source)
+    supervisor = Supervisor(table, data.get("supply"), speed=known, report=report)
     supervisor.start()
     try:
         bench = _limited(_through(supervisor, data, source, speed, drivers), table)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ahrs_lab.errors import InstrumentError
 from ahrs_lab.instruments.interfaces import Bench
-from ahrs_lab.instruments.patience import ENOUGH_S, patient_s
+from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.commands import (
     CheckMounting,
@@ -36,6 +36,7 @@ from ahrs_lab.recording.samples import Samples, concatenate
 
 _TURNED_TOLERANCE_DEG = 0.1
 _CURRENT_POLL_S = 1.0
+_LATE_TURN_S = 3.0
 _SEEN_S = 0.5
 """Wall time in which a wire brings enough reports to judge a table by."""
 
@@ -250,7 +251,7 @@ class Execution:
 
         self._target_deg = target
         # A wire that is behind bench time tells the table late to turn and to come to rest.
-        late_s = patient_s(self._bench.clock, ENOUGH_S) - ENOUGH_S
+        late_s = patient_s(self._bench.clock, _LATE_TURN_S, _LATE_TURN_S) - _LATE_TURN_S
         return self._recorder.record(
             command.segment,
             command.duration_s + late_s,

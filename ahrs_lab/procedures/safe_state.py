@@ -12,6 +12,7 @@ from typing import TypeVar
 
 from ahrs_lab.errors import AhrsLabError, InstrumentError
 from ahrs_lab.instruments.interfaces import Bench, TableState
+from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.figures import figure
 
@@ -72,7 +73,7 @@ def _comes_to_rest(bench: Bench, limit_s: float, problems: list[Message]) -> boo
     try:
         state: TableState = within(limit_s, bench.table.state)
         acceleration = max(bench.table.limits.max_acceleration_dps2, 1e-3)
-        allowed = 1.5 * abs(state.rate_dps) / acceleration + _REST_MARGIN_S
+        allowed = 1.5 * abs(state.rate_dps) / acceleration + patient_s(bench.clock, _REST_MARGIN_S)
         end, wall_end = bench.clock.now_s() + allowed, time.monotonic() + allowed + _REST_MARGIN_S
         for _ in range(_LOOKS):
             if not state.moving:

@@ -12,6 +12,7 @@ from typing import TypeVar
 
 from ahrs_lab.errors import AhrsLabError, InstrumentError
 from ahrs_lab.instruments.interfaces import Clock, RateTable, Supply
+from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.messages import Message
 
 ANSWER_LIMIT_S = 4.0
@@ -59,7 +60,8 @@ def _come_to_rest(table: RateTable, clock: Clock, problems: list[Message]) -> bo
 
     if not _attempt(rate, problems):
         return False
-    end = clock.now_s() + 1.5 * looked[-1] / max(table.limits.max_acceleration_dps2, 1e-3) + _REST_MARGIN_S
+    braking = looked[-1] / max(table.limits.max_acceleration_dps2, 1e-3)
+    end = clock.now_s() + 1.5 * braking + patient_s(clock, _REST_MARGIN_S)
     while clock.now_s() < end:
         if looked[-1] <= _AT_REST_DPS:
             return True

@@ -9,6 +9,7 @@ from ahrs_lab.errors import AhrsLabError
 from ahrs_lab.instruments.protocols.acutrol import encode_reply
 from ahrs_lab.instruments.protocols.acutrol_responder import AclResponder
 from ahrs_lab.instruments.protocols.lines import LineDecoder
+from ahrs_lab.instruments.simulated_identity import simulated_name
 from ahrs_lab.recording.orientation import Orientation
 from ahrs_lab.simulation.faults import FAULT_NAMES
 from ahrs_lab.simulation.servers.connections import Connection
@@ -50,7 +51,8 @@ class AclTableService(_Lines):
 
     def __init__(self, served: ServedWorld) -> None:
         super().__init__(served)
-        self.responder = AclResponder(served.world.table)
+        name = simulated_name("ACUTROL3000", served.said_speed)
+        self.responder = AclResponder(served.world.table, name=name)
 
     def _line(self, line: str) -> bytes:
         return encode_reply(*self.responder.answer(line)) if line else b""
@@ -107,7 +109,8 @@ class ScpiSupply(ScpiService):
     """The DC supply."""
 
     def __init__(self, served: ServedWorld) -> None:
-        super().__init__(served, "AHRS LAB,DC supply (simulated),SIM-0002,1.0")
+        name = simulated_name("DC supply", served.said_speed)
+        super().__init__(served, f"AHRS LAB,{name},SIM-0002,1.0")
         self._supply = served.world.supply
         self._voltage_v, self._limit_a = 0.0, served.world.settings.supply.max_current_a
         self._commands |= {"VOLT": self._volt, "CURR": self._curr, "OUTP": self._output}
@@ -142,7 +145,8 @@ class ScpiRoom(ScpiService):
     """Thermometer and hygrometer."""
 
     def __init__(self, served: ServedWorld) -> None:
-        super().__init__(served, "AHRS LAB,thermohygrometer (simulated),SIM-0003,1.0")
+        name = simulated_name("thermohygrometer", served.said_speed)
+        super().__init__(served, f"AHRS LAB,{name},SIM-0003,1.0")
         room = served.world.room
         self._queries |= {
             "MEAS:TEMP": lambda: f"{room.read().temperature_c:.4f}",

@@ -9,6 +9,8 @@ from ahrs_lab.simulation.servers.served_bench import Place, ServedBench
 BAUD = 921_600
 _POLL_HZ = 200.0
 _PERIOD_S = 0.05
+_PATIENT_S = 3.0
+"""Wall time: the computer may be busy with both ends of the wires."""
 
 
 def linked_bench(bench: ServedBench) -> dict[str, Any]:
@@ -57,6 +59,9 @@ def linked_bench(bench: ServedBench) -> dict[str, Any]:
         data["site"]["longitude_deg"] = site.longitude_deg
     if speed != 1.0:
         data["speed"] = speed
+        data["table"]["reply_timeout_s"] = _PATIENT_S
+        for part in ("supply", "room"):
+            data[part]["connection"]["timeout_s"] = _PATIENT_S
     return data
 
 

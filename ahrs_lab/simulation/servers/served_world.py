@@ -52,6 +52,11 @@ class ServedWorld:
         return self.world.clock.now_s()
 
     @property
+    def said_speed(self) -> float:
+        """As the instruments say it; a stepped world has no relation to the wall clock."""
+        return 1.0 if self.stepped else self.speed
+
+    @property
     def powered(self) -> bool:
         """Whether the unit has its voltage and has booted."""
         device, ahrs = self.world.settings.device, self.world.ahrs

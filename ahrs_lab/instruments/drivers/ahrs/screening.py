@@ -20,6 +20,7 @@ EARLY_S = 0.5
 """A sample that arrives this much before it can have been made has a damaged time."""
 _EARLY_SHARE = 2e-3
 """So much may two clocks run apart."""
+_LONGEST_EARLY_S = 10.0
 _CONSISTENT = 5
 """So many samples in a row that agree with each other are no damage."""
 _RANGE_MARGIN = 1.5
@@ -28,10 +29,11 @@ _RANGE_MARGIN = 1.5
 @dataclass
 class Screening:
     """Takes samples with ``t_s`` and ``host_t_s``; gives those that count. ``range_limit`` is the device's
-    range in its own rate unit."""
+    range in its own rate unit; ``early_s``: how late the first sample may have come, bench time."""
 
     interval_s: float
     range_limit: float
+    early_s: float = EARLY_S
     lost: int = 0
     """Samples that did not come, by the counter where there is one, else by the time."""
     repeated: int = 0
@@ -79,9 +81,9 @@ class Screening:
             self._first_t_s = float(t[first[0]])
             self._offset_s = float(late[first[0]])
             self._last_t_s = self._first_t_s - self.interval_s
-        allowed = EARLY_S + _EARLY_SHARE * np.maximum(t - self._first_t_s, 0.0)
+        allowed = self.early_s + _EARLY_SHARE * np.maximum(t - self._first_t_s, 0.0)
         with np.errstate(invalid="ignore"):
-            early = late - self._offset_s < -np.minimum(allowed, 10.0)
+            early = late - self._offset_s < -np.minimum(allowed, max(self.early_s, _LONGEST_EARLY_S))
             rising = np.diff(t, prepend=self._last_t_s) > 0.0
         if rising.all() and not early.any() and good.all():
             self._went_on(t, late)

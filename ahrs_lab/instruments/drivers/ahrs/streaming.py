@@ -19,11 +19,12 @@ import numpy as np
 
 from ahrs_lab.errors import AhrsLabError, InstrumentError
 from ahrs_lab.instruments.drivers.ahrs.line_budget import check_line
-from ahrs_lab.instruments.drivers.ahrs.screening import Screening
+from ahrs_lab.instruments.drivers.ahrs.screening import EARLY_S, Screening
 from ahrs_lab.instruments.interfaces import Clock
 from ahrs_lab.instruments.links.link import Link, LinkLostError
 from ahrs_lab.instruments.links.port_reader import PortReader
 from ahrs_lab.instruments.links.raw_log import Block, BlockKind, RawLog
+from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.instruments.protocols.frames import LinkCounts
 from ahrs_lab.instruments.protocols.stream import StreamDecoder, joined
 from ahrs_lab.instruments.settings import Difference
@@ -78,6 +79,7 @@ class StreamingAhrs(ABC):
         self._link = link
         self._clock = clock
         self._boot_time_s = boot_time_s
+        self._mute_s = patient_s(clock, _MUTE_S)
         self._range_limit = _in_unit(range_dps, description)
         self._reader = PortReader(link, now_s=clock.now_s)
         self._decoder = self._new_decoder()
@@ -295,7 +297,7 @@ class StreamingAhrs(ABC):
 
     def _retry_while_booting(self, call: Callable[[], None]) -> None:
         """Until it works, or until the device should have booted."""
-        end = self._clock.now_s() + self._boot_time_s
+        end = self._clock.now_s() + patient_s(self._clock, self._boot_time_s)
         while True:
             try:
                 call()
@@ -341,7 +343,8 @@ class StreamingAhrs(ABC):
     # the stream ───────────────────────────────────────────────────────────────────────────────────────────
 
     def _new_screening(self) -> Screening:
-        return Screening(1.0 / self.description.sample_rate_hz, self._range_limit)
+        early_s = patient_s(self._clock, EARLY_S, 1.0)
+        return Screening(1.0 / self.description.sample_rate_hz, self._range_limit, early_s)
 
     def _read_blocks(self, blocks: Sequence[Block]) -> Samples:
         arrived: list[Samples] = []
@@ -381,13 +384,13 @@ class StreamingAhrs(ABC):
         )
 
     def _check_gone(self) -> None:
-        if not self._streaming or self._clock.now_s() - self._last_sample_s < _MUTE_S:
+        if not self._streaming or self._clock.now_s() - self._last_sample_s < self._mute_s:
             return
         if self._reader.lost is not None:
             raise self._reader.lost
         if self._recovery is not None or self._last_bytes_s is None:
             return
-        if self._clock.now_s() - self._last_bytes_s < _MUTE_S:
+        if self._clock.now_s() - self._last_bytes_s < self._mute_s:
             counts = self._decoder.counts
             raise InstrumentError(
                 "The device on {port} sends, but for {silence} s nothing of what it was set to: {failed} "

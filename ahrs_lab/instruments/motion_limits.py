@@ -10,6 +10,7 @@ import math
 from collections import deque
 
 from ahrs_lab.errors import AhrsLabError, InputError, InstrumentError
+from ahrs_lab.instruments.by_hand import SetByHand
 from ahrs_lab.instruments.drivers.tables.soft_limits import SoftLimits
 from ahrs_lab.instruments.interfaces import RateTable, TableLimits, TableLog, TableState
 from ahrs_lab.messages import Message
@@ -91,6 +92,8 @@ class LimitedTable:
     def state(self) -> TableState:
         """What the table does, compared with what it may. Raises InstrumentError where a limit stopped it."""
         state = self._table.state()
+        if isinstance(self._table, SetByHand):
+            return state  # only a person can stop it
         excess = self._excess(state)
         if excess is not None and self._tripped is None:
             self._tripped = self._stopped(excess)

@@ -16,11 +16,7 @@ from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Literal, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ahrs_lab.errors import InputError
-from ahrs_lab.instruments.drivers.tables.manual import ManualRequest
 from ahrs_lab.instruments.interfaces import Clock
 from ahrs_lab.instruments.links.link import Link
 from ahrs_lab.instruments.links.link_settings import LinkSettings, make_link
@@ -30,7 +26,6 @@ from ahrs_lab.messages import Message
 GROUP = "ahrs_lab.instruments"
 
 Kind = Literal["table", "ahrs", "supply", "room"]
-Array = NDArray[np.float64]
 
 
 class Instrument(Protocol):
@@ -50,26 +45,12 @@ class LinkMaker(Protocol):
     def __call__(self, settings: LinkSettings, *, default_port: int = 0) -> Link: ...
 
 
-def nobody_to_ask(request: ManualRequest) -> None:
-    """Raises InputError: a table that is set by hand needs somebody to set it."""
-    raise InputError("There is nobody to ask: “{request}”", request=request.message)
-
-
-def no_rates() -> tuple[Array, Array]:
-    """No unit streams."""
-    return np.empty(0), np.empty(0)
-
-
 @dataclass(frozen=True)
 class Surroundings:
-    """What a driver gets besides its settings. ``link`` may wrap or replace what the settings name. ``ask``
-    and ``rates`` are for a table that is set by hand, see
-    :class:`~ahrs_lab.instruments.drivers.tables.manual.ManualTable`."""
+    """What a driver gets besides its settings. ``link`` may wrap or replace what the settings name."""
 
     clock: Clock
     link: LinkMaker = make_link
-    ask: Callable[[ManualRequest], None] = nobody_to_ask
-    rates: Callable[[], tuple[Array, Array]] = no_rates
 
 
 @dataclass(frozen=True)

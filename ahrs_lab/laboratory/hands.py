@@ -1,5 +1,5 @@
-"""Who mounts the case where there is no screen: a person at a terminal, or the hands of a served virtual
-bench."""
+"""Who mounts the case, and sets by hand what has no wire, where there is no screen: a person at a terminal,
+or the hands of a served virtual bench."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import threading
 from typing import TextIO
 
 from ahrs_lab.errors import AbortedError, InstrumentError
+from ahrs_lab.instruments.by_hand import HandRequest
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.orientation import Orientation
 
@@ -18,7 +19,8 @@ _TIMEOUT_S = 5.0
 
 
 class TerminalOperator:
-    """An :class:`~ahrs_lab.instruments.interfaces.Operator` who confirms with Enter."""
+    """An :class:`~ahrs_lab.instruments.interfaces.Operator` and
+    :class:`~ahrs_lab.instruments.by_hand.Setter` who confirms with Enter."""
 
     def __init__(self, answers: TextIO | None = None, questions: TextIO | None = None) -> None:
         self._answers = answers or sys.stdin
@@ -29,41 +31,53 @@ class TerminalOperator:
 
     def mount(self, orientation: Orientation, previous: Orientation | None) -> None:  # noqa: ARG002
         """See :class:`~ahrs_lab.instruments.interfaces.Operator`."""
-        self.ask(
+        self._show(
             Message(
                 "Mount the case so that its x, y and z point to {letters} (E east, N north, U up, W west, "
                 "S south, D down) with the table at its home angle.",
                 letters=" ".join(orientation.letters),
             )
         )
+        while not self._confirmed(_LOOK_S):
+            pass
 
-    def ask(self, request: Message) -> None:
-        """Show a request and return when the person has confirmed it; raises AbortedError where the person
-        answers “q”, where there is nobody, and when the run is stopped meanwhile."""
-        self._given_up.clear()
-        self._questions.write(f"\n{request.text()}\nEnter: done, q: stop the run. ")
-        self._questions.flush()
-        if self._next_line().strip().lower() in ("q", "quit"):
-            raise AbortedError("The run was stopped while the case was being mounted.")
+    def ask(self, request: HandRequest, because: Message | None = None) -> None:
+        """See :class:`~ahrs_lab.instruments.by_hand.Setter`."""
+        if because is not None:
+            self._questions.write(f"\n{because.text()}")
+        self._show(request.message)
+
+    def has_set(self, wait_s: float) -> bool:
+        """See :class:`~ahrs_lab.instruments.by_hand.Setter`."""
+        return self._confirmed(wait_s)
 
     def interrupt(self) -> None:
         """Nobody will answer any more."""
         self._given_up.set()
 
-    def _next_line(self) -> str:
+    def _show(self, request: Message) -> None:
+        self._given_up.clear()
+        self._questions.write(f"\n{request.text()}\nEnter: done, q: stop the run. ")
+        self._questions.flush()
         if self._reader is None or not self._reader.is_alive():
             # A thread of its own: a line that is waited for cannot be interrupted on every system.
             self._reader = threading.Thread(target=self._read, name="terminal-operator", daemon=True)
             self._reader.start()
-        while not self._given_up.is_set():
-            try:
-                line = self._lines.get(timeout=_LOOK_S)
-            except queue.Empty:
-                continue
-            if not line:
-                raise AbortedError("Nobody is at the terminal to mount the case: the input has ended.")
-            return line
-        raise AbortedError("The run was stopped while the case was being mounted.")
+
+    def _confirmed(self, wait_s: float) -> bool:
+        """Whether the person has confirmed; raises AbortedError where the person answers “q”, where there is
+        nobody, and when the run is stopped meanwhile."""
+        if self._given_up.is_set():
+            raise AbortedError("The run was stopped while the operator was asked.")
+        try:
+            line = self._lines.get(timeout=wait_s)
+        except queue.Empty:
+            return False
+        if not line:
+            raise AbortedError("Nobody is at the terminal to answer: the input has ended.")
+        if line.strip().lower() in ("q", "quit"):
+            raise AbortedError("The run was stopped while the operator was asked.")
+        return True
 
     def _read(self) -> None:
         self._lines.put(self._answers.readline())

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from ahrs_lab.errors import AhrsLabError, InputError, InstrumentError
+from ahrs_lab.instruments.by_hand import HandFinding, HandRequest, SetByHand
 from ahrs_lab.instruments.drivers.tables.soft_limits import SoftLimits
 from ahrs_lab.instruments.interfaces import Clock, RateTable, Supply, TableState
 from ahrs_lab.instruments.motion_limits import LimitedTable
@@ -28,7 +29,6 @@ from ahrs_lab.instruments.supervisor.making import table_wire
 from ahrs_lab.laboratory.bench_speed import bench_speed, check_said_speed
 from ahrs_lab.laboratory.instrument_live import AhrsLook, TableLive, UnplugTest, read_room, read_supply
 from ahrs_lab.laboratory.instrument_station import Station, StationView
-from ahrs_lab.laboratory.manual_table import OperatorsAnswer
 from ahrs_lab.messages import Message
 
 HOLD_LIMIT_S = 0.5
@@ -81,7 +81,6 @@ class InstrumentDesk:
         self._stopping: threading.Thread | None = None
         self.stop_problems: tuple[Message, ...] | None = None
         """What did not work when the bench was stopped last; None before the first stop and during one."""
-        self.answer = OperatorsAnswer()
         self._ahrs_look = AhrsLook()
         self.stations: dict[Kind, Station[Any]] = {
             part: station for part, station in self._all_stations().items() if part in self._bench
@@ -135,7 +134,6 @@ class InstrumentDesk:
 
     def close(self) -> None:
         """Release the buttons, stop the table, let everything go, take leave of the supervisor. Waits."""
-        self.answer.give_up()
         if self._stopping is not None:
             self._stopping.join()
         for station in self.stations.values():
@@ -154,7 +152,7 @@ class InstrumentDesk:
         if self._speed_refused is not None:
             raise self._speed_refused
         table = self._bench["table"]
-        around = Surroundings(self._clock, ask=self.answer.ask)
+        around = Surroundings(self._clock)
         if self._supervised and table_wire(table, self._clock, self._drivers) is not None:
             self._end_supervisor()
             supervisor = Supervisor(table, self._bench.get("supply"), speed=self._speed, report=self._report)
@@ -302,10 +300,26 @@ class InstrumentDesk:
 
     def set_rate(self, rate_dps: float) -> Future[None]:
         """Turn until something else is demanded; for a table that the operator sets by hand, which has no
-        buttons to hold: the request is in :attr:`answer`."""
+        buttons to hold: what he has to do is in :attr:`hand_request`."""
 
         def work(_: Any) -> None:
             self._limited_table().set_rate(rate_dps)
+
+        return self.station("table").ask(work)
+
+    @property
+    def hand_request(self) -> HandRequest | None:
+        """What the operator is asked to set, at a table without a wire."""
+        table = self.stations["table"].instrument if "table" in self.stations else None
+        return table.request if isinstance(table, SetByHand) else None
+
+    def confirm_set(self) -> Future[HandFinding | None]:
+        """The operator says that the table does what was asked. No unit looks on here: it is his word."""
+
+        def work(table: Any) -> HandFinding | None:
+            if not isinstance(table, SetByHand):
+                return None
+            return table.check(self._clock.now_s(), blind=True)
 
         return self.station("table").ask(work)
 

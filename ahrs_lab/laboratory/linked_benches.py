@@ -32,22 +32,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final, Literal
 
-import numpy as np
-
 from ahrs_lab.errors import AhrsLabError, InputError
-from ahrs_lab.instruments.interfaces import Ahrs, Array, Bench, Clock, Operator
+from ahrs_lab.instruments.interfaces import Ahrs, Bench, Clock, Operator
 from ahrs_lab.instruments.links.link_settings import make_link
 from ahrs_lab.instruments.real_clock import RealClock
 from ahrs_lab.instruments.registry import Drivers, Kind, LinkMaker, Surroundings, create_instrument
 from ahrs_lab.instruments.settings import settings_from_toml, within
 from ahrs_lab.laboratory.bench_speed import bench_speed, check_said_speed
 from ahrs_lab.laboratory.hands import SimulatedHands, TerminalOperator
-from ahrs_lab.recording.orientation import Orientation
-from ahrs_lab.recording.samples import GYRO, Samples
-from ahrs_lab.recording.segment import DeviceDescription, Site
+from ahrs_lab.recording.segment import Site
 
 _TABLES: Final = ("site", "table", "ahrs", "supply", "room", "operator")
-_PER_DPS: Final = {"deg/s": 1.0, "rad/s": 180.0 / np.pi}
 
 
 @dataclass(frozen=True)
@@ -79,89 +74,6 @@ class LinkedBench(Bench):
     keep_raw: Callable[[Path | None], None] = field(default=lambda _: None)
 
 
-class FollowedOperator:
-    """An operator, and how the case stands since it was last mounted."""
-
-    def __init__(self, operator: Operator) -> None:
-        self._operator = operator
-        self.orientation: Orientation | None = None
-
-    def mount(self, orientation: Orientation, previous: Orientation | None) -> None:
-        """See :class:`~ahrs_lab.instruments.interfaces.Operator`."""
-        self._operator.mount(orientation, previous)
-        self.orientation = orientation
-
-    def interrupt(self) -> None:
-        """End a waiting :meth:`mount`."""
-        interrupt = getattr(self._operator, "interrupt", None)
-        if interrupt is not None:
-            interrupt()
-
-
-class FollowedAhrs:
-    """An AHRS whose rates a table set by hand is checked with."""
-
-    def __init__(self, ahrs: Any, operator: FollowedOperator) -> None:
-        self._ahrs = ahrs
-        self._operator = operator
-        self._seen: list[tuple[Array, Array]] = []
-        self.wanted = False
-
-    @property
-    def description(self) -> DeviceDescription:
-        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
-        found: DeviceDescription = self._ahrs.description
-        return found
-
-    @description.setter
-    def description(self, description: DeviceDescription) -> None:
-        self._ahrs.description = description
-
-    def identify(self) -> str:
-        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
-        return str(self._ahrs.identify())
-
-    def start(self) -> None:
-        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
-        self._ahrs.start()
-
-    def stop(self) -> None:
-        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
-        self._ahrs.stop()
-
-    def read(self) -> Samples:
-        """See :class:`~ahrs_lab.instruments.interfaces.Ahrs`."""
-        samples: Samples = self._ahrs.read()
-        if self.wanted and len(samples):
-            self._follow(samples)
-        return samples
-
-    @property
-    def link_counts(self) -> Mapping[str, int]:
-        """See :class:`~ahrs_lab.instruments.interfaces.CountsLink`."""
-        counts: Mapping[str, int] = getattr(self._ahrs, "link_counts", {})
-        return counts
-
-    def __getattr__(self, name: str) -> Any:
-        """Counts, time relation and whatever else the driver shows."""
-        return getattr(self._ahrs, name)
-
-    def rates(self) -> tuple[Array, Array]:
-        """Bench times and rates about up (°/s) since the last call; empty where they cannot be told."""
-        self.wanted = True
-        seen, self._seen = self._seen, []
-        if not seen:
-            return np.empty(0), np.empty(0)
-        return np.concatenate([t for t, _ in seen]), np.concatenate([rate for _, rate in seen])
-
-    def _follow(self, samples: Samples) -> None:
-        orientation, scale = self._operator.orientation, _PER_DPS.get(self.description.rate_unit)
-        if orientation is None or scale is None or any(name not in samples for name in GYRO):
-            return
-        up = [{"U": 1.0, "D": -1.0}.get(letter, 0.0) for letter in orientation.letters]
-        self._seen.append((samples["host_t_s"], samples.matrix(GYRO) @ np.array(up) * scale))
-
-
 def linked_bench(
     data: Mapping[str, Any],
     source: str,
@@ -184,13 +96,13 @@ def linked_bench(
     simulated = operator_settings.kind == "simulated-hands"
     checked_speed = None if clock is not None else bench_speed(data, speed, source)
     clock = clock or RealClock(checked_speed or 1.0)
-    asked = TerminalOperator()
-    hands = SimulatedHands(operator_settings.host, operator_settings.port)
-    operator = FollowedOperator(hands if simulated else asked)
+    operator: Operator = TerminalOperator()
+    if simulated:
+        operator = SimulatedHands(operator_settings.host, operator_settings.port)
     opened: list[Any] = []
     try:
-        ahrs = FollowedAhrs(_create("ahrs", data, source, Surroundings(clock, link), drivers), operator)
-        around = Surroundings(clock, link, ask=lambda request: asked.ask(request.message), rates=ahrs.rates)
+        around = Surroundings(clock, link)
+        ahrs = _create("ahrs", data, source, around, drivers)
         opened.append(ahrs)
         made: dict[str, Any] = {}
         kinds: tuple[Kind, ...] = ("supply", "room", "table")

@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ahrs_lab.errors import AbortedError, InputError, MachineError
+from ahrs_lab.instruments.by_hand import HandRequest, Setter
 from ahrs_lab.instruments.interfaces import Bench, Operator
 from ahrs_lab.laboratory.bundles import counting, open_bundle, sound
 from ahrs_lab.messages import Message
@@ -32,13 +33,14 @@ _LOOK_S = 0.05
 
 class ScreenOperator:
     """The operator behind the screen: :meth:`mount` waits in the run's thread until :meth:`confirm` is
-    called.
+    called, and so says :meth:`has_set`.
 
-    ``hands`` is who moves a fixture that is not real: the simulated operator of a virtual bench.
+    ``hands`` is who moves a fixture, or a table, that is not real: the simulated operator of a virtual bench.
     """
 
     def __init__(self, hands: Operator | None = None) -> None:
         self._hands = hands
+        self._setter = _setter_of(hands)
         self._answered = threading.Event()
         self._given_up = False
 
@@ -53,8 +55,25 @@ class ScreenOperator:
         if self._hands is not None:
             self._hands.mount(orientation, previous)
 
+    def ask(self, request: HandRequest, because: Message | None = None) -> None:
+        """See :class:`~ahrs_lab.instruments.by_hand.Setter`; what is asked goes to the screen as an event."""
+        self._answered.clear()
+        if self._setter is not None:
+            self._setter.ask(request, because)
+
+    def has_set(self, wait_s: float) -> bool:
+        """See :class:`~ahrs_lab.instruments.by_hand.Setter`."""
+        said = self._answered.wait(wait_s)
+        if self._given_up:
+            raise AbortedError("The run was stopped while the rate table was being set by hand.")
+        if said:
+            self._answered.clear()
+            if self._setter is not None:
+                self._setter.has_set(0.0)
+        return said
+
     def confirm(self) -> None:
-        """The person says that the case is mounted."""
+        """The person says that the case is mounted, or the table set."""
         self._answered.set()
 
     def interrupt(self) -> None:
@@ -66,6 +85,10 @@ class ScreenOperator:
         """Ready for another run."""
         self._given_up = False
         self._answered.clear()
+
+
+def _setter_of(hands: object) -> Setter | None:
+    return hands if isinstance(hands, Setter) else None
 
 
 _Work = tuple[Procedure, tuple[Step, ...]]
@@ -214,6 +237,10 @@ class LiveRun:
 
     def confirm_mounted(self) -> None:
         """The person says that the case stands as asked."""
+        self._screen.confirm()
+
+    def confirm_set(self) -> None:
+        """The person says that the table does what was asked; it is checked before it counts."""
         self._screen.confirm()
 
     def pause(self) -> None:

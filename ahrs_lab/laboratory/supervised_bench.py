@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ahrs_lab.errors import InputError
+from ahrs_lab.instruments.by_hand import SetByHand
 from ahrs_lab.instruments.drivers.tables.soft_limits import SoftLimits
 from ahrs_lab.instruments.interfaces import TableLimits
 from ahrs_lab.instruments.links.link import Link
@@ -80,7 +81,9 @@ def _through(
 
 def _limited(bench: LinkedBench, table: Mapping[str, Any]) -> LinkedBench:
     """The driver refuses what is beyond its settings; here the table is stopped that does more all the
-    same."""
+    same, unless only a person can stop it."""
+    if isinstance(bench.table, SetByHand):
+        return bench
     given = table.get("limits", {})
     limits = bench.table.limits
     soft = SoftLimits(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from ahrs_lab.instruments.by_hand import Felt, HandFinding, HandRequest
 from ahrs_lab.instruments.interfaces import RoomReading, SupplyReading, TableState
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.commands import Step
@@ -60,6 +61,37 @@ class MountingChecked:
 
 
 @dataclass(frozen=True)
+class HandRequested:
+    """A person is asked to set an instrument by hand; the run waits, or, where it is ending, goes on all the
+    same. ``because``: why it is asked again."""
+
+    request: HandRequest
+    because: Message | None = None
+
+
+@dataclass(frozen=True)
+class HandFelt:
+    """What the unit feels meanwhile."""
+
+    felt: Felt
+
+
+@dataclass(frozen=True)
+class HandChecked:
+    """The person has said that it is done: accepted, or what was felt instead."""
+
+    request: HandRequest
+    finding: HandFinding
+
+
+@dataclass(frozen=True)
+class MadeSafe:
+    """The run has ended and the bench was made safe; ``problems``: what did not work, and what to do."""
+
+    problems: tuple[Message, ...] = ()
+
+
+@dataclass(frozen=True)
 class Activity:
     """What is going on inside a step, with progress 0…1 where known: "settling the supply current" …"""
 
@@ -112,6 +144,10 @@ Event = (
     | StepFinished
     | MountRequested
     | MountingChecked
+    | HandRequested
+    | HandFelt
+    | HandChecked
+    | MadeSafe
     | Activity
     | SegmentStarted
     | SegmentFinished

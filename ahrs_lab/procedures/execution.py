@@ -12,6 +12,7 @@ from ahrs_lab.errors import InstrumentError
 from ahrs_lab.instruments.interfaces import Bench
 from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.messages import Message
+from ahrs_lab.procedures.by_hand import ByHand
 from ahrs_lab.procedures.commands import (
     CheckMounting,
     Command,
@@ -39,6 +40,7 @@ _CURRENT_POLL_S = 1.0
 _LATE_TURN_S = 3.0
 _SEEN_S = 0.5
 """Wall time in which a wire brings enough reports to judge a table by."""
+_BACK_DPS = 10.0
 
 
 class Waiting(Protocol):
@@ -64,6 +66,7 @@ class Execution:
         self._recorder = recorder
         self._emit = emit
         self._waiting = waiting
+        self.by_hand = ByHand(bench, watch, emit, waiting)
         self.spinning = False
         self.power_cycle = 0
         self._target_deg: float | None = None
@@ -90,6 +93,7 @@ class Execution:
         self._bench.table.stop()
         self.spinning = False
         self._target_deg = None
+        self.by_hand.have_set()
         state = self._bench.table.state()
         expected = abs(state.rate_dps) / max(self._bench.table.limits.max_acceleration_dps2, 1e-3)
         self._tell(Message("Table stops"), expected)
@@ -145,6 +149,7 @@ class Execution:
             self._bench.operator.mount(command.orientation, command.previous)
         finally:
             self._waiting(False)
+        self.by_hand.mounted(command.orientation)
         if self._watch.powered:
             self._watch.start_stream()
 
@@ -181,6 +186,7 @@ class Execution:
         target = wanted + 360.0 * round((now_deg - wanted) / 360.0)
         table.move_to(target, command.rate_dps)
         self._target_deg, self.spinning = target, False
+        self.by_hand.have_set()
         acceleration = max(table.limits.max_acceleration_dps2, 1e-3)
         travel = abs(target - now_deg)
         expected = travel / command.rate_dps + (command.rate_dps / acceleration if travel > 1e-3 else 0.0)
@@ -206,6 +212,7 @@ class Execution:
     def _spin(self, command: Spin) -> None:
         self._bench.table.set_rate(command.rate_dps)
         self.spinning, self._target_deg = True, None
+        self.by_hand.have_set()
 
     def _settle_rate(self, command: SettleRate) -> None:
         table, clock = self._bench.table, self._bench.clock
@@ -239,7 +246,18 @@ class Execution:
     # recording ────────────────────────────────────────────────────────────────────────────────────────────
 
     def _record(self, command: Record) -> Recorded:
-        return self._recorder.record(command.segment, command.duration_s)
+        def record(sure: Callable[[], None]) -> Recorded:
+            return self._recorder.record(command.segment, command.duration_s, verify=sure)
+
+        def again() -> None:
+            if self.spinning:
+                self._bench.table.set_rate(command.segment.rate_dps)
+            elif self._target_deg is not None:
+                self._bench.table.move_to(self._target_deg, _BACK_DPS)
+            else:
+                self._bench.table.stop()
+
+        return self.by_hand.recorded(record, again)
 
     def _record_turns(self, command: RecordTurns) -> Recorded:
         table = self._bench.table
@@ -248,16 +266,26 @@ class Execution:
 
         def turn() -> None:
             table.move_to(target, abs(command.rate_dps))
+            self.by_hand.have_set()
 
-        self._target_deg = target
         # A wire that is behind bench time tells the table late to turn and to come to rest.
         late_s = patient_s(self._bench.clock, _LATE_TURN_S, _LATE_TURN_S) - _LATE_TURN_S
-        return self._recorder.record(
-            command.segment,
-            command.duration_s + late_s,
-            [(command.lead_s, turn)],
-            lambda: self._sure_of_turns(command, target),
-        )
+
+        def record(sure: Callable[[], None]) -> Recorded:
+            def verify() -> None:
+                sure()
+                self._sure_of_turns(command, target)
+
+            # A person takes as long as it takes; what comes after the motion is recorded as planned.
+            tail_s = command.lead_s if self.by_hand.table is not None else None
+            actions = [(command.lead_s, turn)]
+            return self._recorder.record(
+                command.segment, command.duration_s + late_s, actions, verify, tail_s
+            )
+
+        recorded = self.by_hand.recorded(record, lambda: table.move_to(start, abs(command.rate_dps)))
+        self._target_deg = target
+        return recorded
 
     def _sure_of_turns(self, command: RecordTurns, target: float) -> None:
         state = self._bench.table.state()

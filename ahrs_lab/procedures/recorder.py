@@ -26,6 +26,8 @@ from ahrs_lab.procedures.watch import Watch
 from ahrs_lab.recording.samples import Samples
 from ahrs_lab.recording.segment import Segment
 
+_LONGEST_S = 86400.0
+
 Action = tuple[float, Callable[[], None]]
 """Seconds after the start, and what is done then."""
 
@@ -66,6 +68,10 @@ class _Cut:
         self._start_s: float | None = None
         self.complete = False
         self.rows = 0
+
+    def end_at(self, duration_s: float) -> None:
+        """Now it is known how long it lasts."""
+        self.duration_s = max(1, round(duration_s / self._interval_s)) * self._interval_s
 
     @property
     def lost(self) -> int:
@@ -148,9 +154,11 @@ class Recorder:
         duration_s: float,
         actions: Sequence[Action] = (),
         verify: Callable[[], None] = lambda: None,
+        tail_s: float | None = None,
     ) -> Recorded:
         """Record ``segment`` for ``duration_s``; ``actions`` are done at their times after the start, in
-        order, and ``verify`` raises where the segment may not count.
+        order, and ``verify`` raises where the segment may not count. With ``tail_s`` the actions may take as
+        long as they do, and the recording ends so long after the last of them.
 
         Whatever ends it early, what came is kept as interrupted.
         """
@@ -163,7 +171,7 @@ class Recorder:
         self._writer.begin(segment)
         self._emit(SegmentStarted(segment, duration_s))
         try:
-            cut, sums = self._collect(segment, duration_s, actions)
+            cut, sums = self._collect(segment, duration_s, actions, tail_s)
             verify()
         except AhrsLabError as error:
             self._keep_interrupted(str(error))
@@ -185,10 +193,13 @@ class Recorder:
         except AhrsLabError as error:
             self._emit(Warned(error.message))
 
-    def _collect(self, segment: Segment, duration_s: float, actions: Sequence[Action]) -> tuple[_Cut, _Sums]:
+    def _collect(
+        self, segment: Segment, duration_s: float, actions: Sequence[Action], tail_s: float | None
+    ) -> tuple[_Cut, _Sums]:
         clock, watch = self._bench.clock, self._watch
         start = clock.now_s()
-        cut, sums = _Cut(start, duration_s, watch.interval_s), _Sums()
+        longest_s = duration_s if tail_s is None else _LONGEST_S
+        cut, sums = _Cut(start, longest_s, watch.interval_s), _Sums()
 
         def take(samples: Samples) -> None:
             rows = cut.take(samples, watch.offset_s or 0.0)
@@ -198,7 +209,7 @@ class Recorder:
 
         watch.sink, watch.offset_held = take, True
         try:
-            self._wait_for_rows(segment, start, cut, list(actions))
+            self._wait_for_rows(segment, start, cut, list(actions), tail_s)
         finally:
             watch.sink, watch.offset_held = None, False
         if not cut.rows:
@@ -210,17 +221,20 @@ class Recorder:
             )
         return cut, sums
 
-    def _wait_for_rows(self, segment: Segment, start: float, cut: _Cut, actions: list[Action]) -> None:
+    def _wait_for_rows(
+        self, segment: Segment, start: float, cut: _Cut, actions: list[Action], tail_s: float | None
+    ) -> None:
         clock, watch = self._bench.clock, self._watch
         interval = watch.interval_s
-        latest = cut.duration_s * 1.02 + patient_s(clock, 5.0)
         while not cut.complete:
             passed = clock.now_s() - start
             if actions and passed >= actions[0][0] - 1e-9:
                 actions.pop(0)[1]()
+                if tail_s is not None and not actions:
+                    cut.end_at(clock.now_s() - start + tail_s)
                 continue
             arrived = watch.last_arrival_s - start
-            if arrived > latest:
+            if arrived > cut.duration_s * 1.02 + patient_s(clock, 5.0):
                 raise InstrumentError(
                     "The device's clock has not reached the {duration} s of {segment} after {passed} s: its "
                     "time column or its sample rate is wrong. Check the device's output settings.",

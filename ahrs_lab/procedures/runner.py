@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Protocol, runtime_checkable
 
 from ahrs_lab.errors import AbortedError, AhrsLabError, InstrumentError
+from ahrs_lab.instruments.by_hand import Setter
 from ahrs_lab.instruments.interfaces import Bench, RoomReading, SupplyReading, TableState
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures import jjf1536
@@ -27,6 +28,9 @@ from ahrs_lab.procedures.events import (
     Activity,
     BenchReading,
     Event,
+    HandFelt,
+    HandRequested,
+    MadeSafe,
     RunState,
     StateChanged,
     StepFinished,
@@ -121,6 +125,7 @@ class Runner:
         self._last_activity: Message | None = None
         self._step: Step | None = None
         self._step_worked = False
+        self._told_to_rest = False
 
     # from any thread ──────────────────────────────────────────────────────────────────────────────────────
 
@@ -219,6 +224,7 @@ class Runner:
             )
         self._raise_if_stopped()
         bench.table.enable()  # acknowledges a fault of an earlier run; one that is still there shows at once
+        self._execution.by_hand.have_set()
         check_table(bench.table.state())
 
     def _drive(self, procedure: Procedure) -> None:
@@ -293,11 +299,25 @@ class Runner:
 
     def _make_safe(self) -> tuple[Message, ...]:
         self._safe_begun.set()
-        problems = make_safe(self._bench, self._answer_limit_s)
+        problems = make_safe(self._bench, self._answer_limit_s, self._tell_whom_to_ask)
         for problem in problems:
             self._warnings.append(Warned(problem))
             self._tell_at_the_end(Warned(problem))
+        self._tell_at_the_end(MadeSafe(problems))
         return problems
+
+    def _tell_whom_to_ask(self) -> None:
+        """A table that only a person can stop: while the run ends it is felt, and the person is told."""
+        table = self._execution.by_hand.table
+        if table is None:
+            return
+        if table.request is not None and not self._told_to_rest:
+            self._told_to_rest = True
+            if isinstance(self._bench.operator, Setter):
+                self._bench.operator.ask(table.request)
+            self._tell_at_the_end(HandRequested(table.request))
+        self._watch.follow()
+        self._tell_at_the_end(HandFelt(table.felt()))
 
     def _write_notes(self, started_utc: str, error: AhrsLabError | None) -> AhrsLabError | None:
         """What the run adds to the record; a fault of the disk counts unless something else came first."""

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from ahrs_lab.errors import AhrsLabError, InstrumentError
+from ahrs_lab.instruments.by_hand import SetByHand
 from ahrs_lab.instruments.interfaces import Bench, TableState
 from ahrs_lab.instruments.patience import patient_s
 from ahrs_lab.messages import Message
@@ -24,12 +25,14 @@ _LOOKS = 400
 _T = TypeVar("_T")
 
 
-def make_safe(bench: Bench, answer_limit_s: float = ANSWER_LIMIT_S) -> tuple[Message, ...]:
-    """Stop the table, wait until it rests, switch the supply off. Returns what did not work, never raises an
-    Exception."""
+def make_safe(
+    bench: Bench, answer_limit_s: float = ANSWER_LIMIT_S, look: Callable[[], None] = lambda: None
+) -> tuple[Message, ...]:
+    """Stop the table, wait until it rests, switch the supply off; ``look`` is called before each look at the
+    table. Returns what did not work, never raises an Exception."""
     problems: list[Message] = []
     stopped = _attempt(bench.table.stop, answer_limit_s, problems, _TABLE_NOT_STOPPED)
-    if not (stopped and _comes_to_rest(bench, answer_limit_s, problems)):
+    if not (stopped and _comes_to_rest(bench, answer_limit_s, problems, look)):
         # The brake is what is left where the drive does not obey.
         _attempt(bench.table.disable, answer_limit_s, problems, _TABLE_NOT_DISABLED)
         _attempt(bench.table.stop, answer_limit_s, problems, _TABLE_NOT_STOPPED)
@@ -68,9 +71,10 @@ def _attempt(call: Callable[[], object], limit_s: float, problems: list[Message]
     return False
 
 
-def _comes_to_rest(bench: Bench, limit_s: float, problems: list[Message]) -> bool:
+def _comes_to_rest(bench: Bench, limit_s: float, problems: list[Message], look: Callable[[], None]) -> bool:
     """Wait for standstill, as long as the table needs from its present rate and a margin."""
     try:
+        within(limit_s, look)
         state: TableState = within(limit_s, bench.table.state)
         acceleration = max(bench.table.limits.max_acceleration_dps2, 1e-3)
         allowed = 1.5 * abs(state.rate_dps) / acceleration + patient_s(bench.clock, _REST_MARGIN_S)
@@ -81,12 +85,24 @@ def _comes_to_rest(bench: Bench, limit_s: float, problems: list[Message]) -> boo
             if bench.clock.now_s() >= end or time.monotonic() >= wall_end:
                 break
             bench.clock.wait(allowed / 100.0)
+            within(limit_s, look)
             state = within(limit_s, bench.table.state)
     except Exception as error:
         problems.append(_table_not_stopped(f"{type(error).__name__}: {error}"))
         return False
-    problems.append(_table_not_stopped(Message("it is still turning")))
+    if isinstance(bench.table, SetByHand):
+        problems.append(_still_turns_by_hand(state))
+    else:
+        problems.append(_table_not_stopped(Message("it is still turning")))
     return False
+
+
+def _still_turns_by_hand(state: TableState) -> Message:
+    return Message(
+        "The rate table is set by hand and was still turning at {rate} °/s when the run ended: bring it to "
+        "rest by hand.",
+        rate=round(state.rate_dps, 1),
+    )
 
 
 def within(limit_s: float, call: Callable[[], _T]) -> _T:

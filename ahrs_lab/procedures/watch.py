@@ -49,6 +49,8 @@ class Watch:
         """Who wants the samples that arrive while time passes, besides the screen."""
         self.offset_held = False
         """Set while a segment is recorded: its times on the bench all have the same offset."""
+        self.feel: Callable[[Samples], None] | None = None
+        """Who is told of them before the table is looked at."""
         self.powered = False
         self._streaming = False
         self._last_arrival_s = 0.0
@@ -59,6 +61,11 @@ class Watch:
     def interval_s(self) -> float:
         """Nominal time between two samples."""
         return 1.0 / self._bench.ahrs.description.sample_rate_hz
+
+    @property
+    def streaming(self) -> bool:
+        """Whether the unit is to send."""
+        return self._streaming
 
     @property
     def offset_s(self) -> float | None:
@@ -100,10 +107,12 @@ class Watch:
     def look(self) -> None:
         """See what has come meanwhile, without waiting."""
         samples = self._bench.ahrs.read() if self._streaming else Samples()
-        state = self._bench.table.state()
-        self.trace.add(self._bench.table.log(), state)
         limit = self._silence_limit_s
         silence = self._arrival_gap(samples)
+        if self.feel is not None and len(samples):
+            self.feel(samples)
+        state = self._bench.table.state()
+        self.trace.add(self._bench.table.log(), state)
         if len(samples):
             samples = self._with_table(samples)
             self._on_samples(samples)
@@ -120,6 +129,14 @@ class Watch:
             supply = self.read_supply()
             self._next_reading = time.monotonic() + READING_INTERVAL_S
             self._on_reading(state, supply, self._bench.room.read())
+
+    def follow(self) -> None:
+        """Take in what the unit feels and judge nothing: at the end of a run."""
+        if self.feel is not None and self._streaming:
+            samples = self._bench.ahrs.read()
+            self._arrival_gap(samples)
+            if len(samples):
+                self.feel(samples)
 
     def tell(self) -> None:
         """Look, and tell what is read at once: before somebody is asked, or when the run pauses."""

@@ -18,6 +18,7 @@ FaultName = Literal[
     "ahrs_silent",
     "ahrs_dropouts",
     "wrong_mounting",
+    "wrong_rate",
     "room_out_of_limits",
 ]
 TRIP_ABOVE_DPS = 30.0
@@ -40,6 +41,7 @@ class Fault:
     - ``ahrs_dropouts``: one sample in ten is lost
     - ``wrong_mounting``: the operator mounts ``orientation`` or, without one, the asked axes cyclically
     exchanged
+    - ``wrong_rate``: whoever sets a table by hand turns it the wrong way
     - ``room_out_of_limits``: 26 °C, 90 %
     """
 

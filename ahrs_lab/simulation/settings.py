@@ -255,10 +255,11 @@ class RoomSettings:
 @dataclass(frozen=True)
 class OperatorSettings:
     """The virtual person at the bench. ``first_orientation`` is how the case stands before anybody is
-    asked."""
+    asked. ``sets_table``: the table has no wire, this person sets it by hand."""
 
     mount_time_s: float = 30.0
     first_orientation: str = "ENU"
+    sets_table: bool = False
 
     def __post_init__(self) -> None:
         Orientation(self.first_orientation)

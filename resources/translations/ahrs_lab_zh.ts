@@ -571,6 +571,10 @@
         <translation>继续运行</translation>
     </message>
     <message>
+        <source>What was recorded is kept.</source>
+        <translation>已记录的数据已保存。</translation>
+    </message>
+    <message>
         <source>Segments recorded in this run</source>
         <translation>本次运行记录的数据段</translation>
     </message>
@@ -658,6 +662,132 @@
     <message>
         <source>{text} (segment {segment})</source>
         <translation>{text}（数据段 {segment}）</translation>
+    </message>
+</context>
+<context>
+    <name>HandView</name>
+    <message>
+        <source>Being checked …</source>
+        <translation>正在核对 …</translation>
+    </message>
+    <message>
+        <source>Space</source>
+        <translation type="unfinished">空格</translation>
+    </message>
+    <message>
+        <source>The device has felt</source>
+        <translation>设备测得转过</translation>
+    </message>
+    <message>
+        <source>The device feels</source>
+        <translation>设备测得</translation>
+    </message>
+    <message>
+        <source>as asked, within {allowed}</source>
+        <translation>符合要求，{allowed} 以内</translation>
+    </message>
+    <message>
+        <source>turning, {rate} °/s</source>
+        <translation>正在转动，{rate} °/s</translation>
+    </message>
+    <message>
+        <source>not yet within {allowed}</source>
+        <translation>尚未进入 {allowed}</translation>
+    </message>
+    <message>
+        <source>The device feels nothing of it now, so your word is taken: look twice before confirming.</source>
+        <translation>设备目前无法测得转台的状态，以您的确认为准：请看清后再确认。</translation>
+    </message>
+</context>
+<context>
+    <name>HandWords</name>
+    <message>
+        <source>Switch the rate table on</source>
+        <translation>接通转台电源</translation>
+    </message>
+    <message>
+        <source>Set the rate by hand</source>
+        <translation>手动设置转速</translation>
+    </message>
+    <message>
+        <source>Turn the table to an angle</source>
+        <translation>将转台转到指定角度</translation>
+    </message>
+    <message>
+        <source>Turn the table by whole turns</source>
+        <translation>将转台转过整圈数</translation>
+    </message>
+    <message>
+        <source>Bring the table to rest</source>
+        <translation>使转台停止</translation>
+    </message>
+    <message>
+        <source>Switch the rate table off</source>
+        <translation>关闭转台</translation>
+    </message>
+    <message>
+        <source>Clockwise seen from above. Confirm when it turns steadily.</source>
+        <translation>俯视顺时针。转动平稳后确认。</translation>
+    </message>
+    <message>
+        <source>Anticlockwise seen from above. Confirm when it turns steadily.</source>
+        <translation>俯视逆时针。转动平稳后确认。</translation>
+    </message>
+    <message>
+        <source>Clockwise seen from above, at most {rate} °/s, to rest where it began. It is being recorded.</source>
+        <translation>俯视顺时针，不超过 {rate} °/s，回到起始位置停止。正在记录。</translation>
+    </message>
+    <message>
+        <source>Anticlockwise seen from above, at most {rate} °/s, to rest where it began. It is being recorded.</source>
+        <translation>俯视逆时针，不超过 {rate} °/s，回到起始位置停止。正在记录。</translation>
+    </message>
+    <message>
+        <source>Let it stand still at its zero mark.</source>
+        <translation>使转台静止在零位标记处。</translation>
+    </message>
+    <message>
+        <source>On the table&apos;s own scale, counted anticlockwise seen from above. Let it stand still.</source>
+        <translation>以转台自身刻度为准，俯视逆时针计数。使其静止。</translation>
+    </message>
+    <message>
+        <source>Confirm when it stands still.</source>
+        <translation>静止后确认。</translation>
+    </message>
+    <message>
+        <source>Bring it to rest first.</source>
+        <translation>请先使其停止。</translation>
+    </message>
+    <message>
+        <source>turns</source>
+        <translation>圈</translation>
+    </message>
+    <message>
+        <source>on the table&apos;s scale</source>
+        <translation>转台刻度</translation>
+    </message>
+    <message>
+        <source>It is on and stands</source>
+        <translation>已接通并静止</translation>
+    </message>
+    <message>
+        <source>It turns steadily</source>
+        <translation>转动已平稳</translation>
+    </message>
+    <message>
+        <source>It stands there</source>
+        <translation>已静止在该处</translation>
+    </message>
+    <message>
+        <source>Turned, at rest</source>
+        <translation>已转完并静止</translation>
+    </message>
+    <message>
+        <source>It stands still</source>
+        <translation>已静止</translation>
+    </message>
+    <message>
+        <source>It is off</source>
+        <translation>已关闭</translation>
     </message>
 </context>
 <context>
@@ -1297,6 +1427,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Getting ready</source>
         <translation>准备中</translation>
+    </message>
+    <message>
+        <source>The run is stopped. Only you can stop this table; then the supply goes off.</source>
+        <translation>运行已停止。此转台只能由您停下；随后电源关闭。</translation>
     </message>
     <message>
         <source>Mount the case with {axis} pointing up</source>
@@ -3034,6 +3168,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>The case is mounted wrongly</source>
         <translation>机壳装夹错误</translation>
+    </message>
+    <message>
+        <source>A table set by hand turns the wrong way</source>
+        <translation>手动转台转向错误</translation>
     </message>
     <message>
         <source>The room is at 26 °C and 90 %RH</source>

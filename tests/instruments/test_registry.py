@@ -11,6 +11,7 @@ from typing import Literal
 import pytest
 
 from ahrs_lab.errors import InputError
+from ahrs_lab.instruments.by_hand import SetByHand
 from ahrs_lab.instruments.drivers.catalogue import ACUTROL
 from ahrs_lab.instruments.drivers.rooms.sensors import PolledRoom, TypedRoom
 from ahrs_lab.instruments.drivers.supplies.scpi import ScpiSupply
@@ -103,13 +104,15 @@ def test_what_is_wrong_with_a_bench_file_is_told(table: dict[str, object], says:
         create_instrument("table", table, Surroundings(FakeClock()), house())
 
 
-def test_a_table_set_by_hand_needs_somebody_to_ask() -> None:
+def test_a_table_set_by_hand_is_made_without_a_wire_and_says_what_to_do() -> None:
     limits = {"max_rate_dps": 50.0, "max_acceleration_dps2": 10.0}
     table = create_instrument(
         "table", {"driver": "manual", "limits": limits}, Surroundings(FakeClock()), house()
     )
-    with pytest.raises(InputError, match="nobody to ask"):
-        table.enable()
+    table.enable()
+    assert isinstance(table, SetByHand)
+    assert table.request is not None
+    assert table.request.kind == "switch_on"
 
 
 def test_a_driver_that_does_not_load_is_told_and_keeps_nobody_away() -> None:

@@ -227,14 +227,14 @@ def test_a_table_set_by_hand_asks_and_waits_for_the_answer(drivers: Drivers) -> 
     desk = InstrumentDesk(bench, drivers=drivers)
     try:
         connected(desk, "table")
-        future = desk.set_rate(10.0)
-        until(lambda: desk.answer.pending is not None)
-        pending = desk.answer.pending
+        desk.set_rate(10.0).result(PATIENCE_S)
+        pending = desk.hand_request
         assert pending is not None
         assert "+10 °/s" in pending.message.text()
-        assert not future.done()
-        desk.answer.confirm()
-        future.result(PATIENCE_S)
+        finding = desk.confirm_set().result(PATIENCE_S)
+        assert finding is not None
+        assert not finding.felt
+        assert desk.hand_request is None
         assert table_live_when_read(desk) == 10.0
     finally:
         desk.close()

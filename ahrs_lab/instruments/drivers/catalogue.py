@@ -19,7 +19,8 @@ from ahrs_lab.instruments.drivers.tables.actidyn import ActidynSettings, Actidyn
 from ahrs_lab.instruments.drivers.tables.acutrol import AcutrolSettings, AcutrolTable
 from ahrs_lab.instruments.drivers.tables.ascii_table import AsciiTable, AsciiTableSettings
 from ahrs_lab.instruments.drivers.tables.atl import AtlSettings, AtlTable
-from ahrs_lab.instruments.drivers.tables.manual import ManualSettings, ManualTable
+from ahrs_lab.instruments.drivers.tables.felt_motion import ManualSettings
+from ahrs_lab.instruments.drivers.tables.manual import ManualTable
 from ahrs_lab.instruments.protocols import actidyn, acutrol, modbus
 from ahrs_lab.instruments.registry import Driver, Surroundings
 from ahrs_lab.messages import Message
@@ -42,7 +43,7 @@ def _ascii(settings: AsciiTableSettings, around: Surroundings) -> AsciiTable:
 
 
 def _manual(settings: ManualSettings, around: Surroundings) -> ManualTable:
-    return ManualTable(settings, around.clock, around.ask, around.rates)
+    return ManualTable(settings, around.clock)
 
 
 def _talk(connection: ScpiConnection, around: Surroundings) -> ScpiTalk:

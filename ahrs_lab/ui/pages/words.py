@@ -79,5 +79,6 @@ def fault_names() -> dict[str, str]:
         "ahrs_silent": translate("Words", "The device goes silent"),
         "ahrs_dropouts": translate("Words", "One sample in ten is lost"),
         "wrong_mounting": translate("Words", "The case is mounted wrongly"),
+        "wrong_rate": translate("Words", "A table set by hand turns the wrong way"),
         "room_out_of_limits": translate("Words", "The room is at 26 °C and 90 %RH"),
     }

@@ -135,6 +135,16 @@ class RunBridge(QObject):
             self._live.confirm_mounted()
             self.changed.emit()
 
+    def confirm(self) -> None:
+        """The person says that what is asked is done: the case mounted, or the table set."""
+        if self._live is not None and self.model.hand is not None and self.model.state == "waiting":
+            if not self.model.confirmed:
+                self.model.confirmed = True
+                self._live.confirm_set()
+                self.changed.emit()
+        else:
+            self.confirm_mounted()
+
     def toggle_pause(self) -> None:
         """Pause before the next command, or go on."""
         if self._live is None or not self.live:

@@ -60,10 +60,12 @@ class EndView(Translated):
                 "good", self.tr("The run is complete"), self.tr("The table rests, the supply is off.")
             )
         elif model.state == "aborted":
-            kept = self.tr("The table rests, the supply is off. What was recorded is kept.")
+            kept = self._kept(
+                model, self.tr("The table rests, the supply is off. What was recorded is kept.")
+            )
             self.banner.set_content("warn", self.tr("The run was stopped"), f"{reason}\n{kept}".strip())
         else:
-            kept = self.tr("The bench was brought to rest. What was recorded is kept.")
+            kept = self._kept(model, self.tr("The bench was brought to rest. What was recorded is kept."))
             self.banner.set_content("bad", self.tr("The run could not go on"), f"{reason}\n{kept}".strip())
         self._facts.set_value("segments", count(len(model.segments)))
         self._facts.set_value("lost", count(model.lost), "warn" if model.lost else "text")
@@ -77,6 +79,12 @@ class EndView(Translated):
         self._warnings.setVisible(bool(shown))
         self.repeat.setEnabled(bool(model.on_disk))
         self.main.setText(self.tr("Show the results") if self._done else self.tr("Resume the run"))
+
+    def _kept(self, model: RunModel, safe: str) -> str:
+        """Nobody is told that the bench is at rest where it may not be."""
+        if not model.unsafe:
+            return safe
+        return "\n".join([*map(said, model.unsafe), self.tr("What was recorded is kept.")])
 
     def retranslate(self) -> None:
         """Set every text."""

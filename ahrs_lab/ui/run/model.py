@@ -7,12 +7,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
+from ahrs_lab.instruments.by_hand import Felt, HandRequest
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.commands import Step
 from ahrs_lab.procedures.events import (
     Activity,
     BenchReading,
     Event,
+    HandChecked,
+    HandFelt,
+    HandRequested,
+    MadeSafe,
     MountingChecked,
     MountRequested,
     RunState,
@@ -27,7 +32,7 @@ from ahrs_lab.recording.orientation import Orientation
 from ahrs_lab.recording.segment import Segment
 from ahrs_lab.ui.run.step_mark import StepMark
 
-Phase = Literal["none", "mount", "work", "record", "paused", "done", "aborted", "failed"]
+Phase = Literal["none", "mount", "hand", "work", "record", "paused", "done", "aborted", "failed"]
 """What the middle card is about."""
 
 ENDED: frozenset[RunState] = frozenset({"done", "aborted", "failed"})
@@ -111,7 +116,16 @@ class RunModel:
         self.segment_elapsed_s = 0.0
         """How much of the recording has arrived; whoever counts the samples sets it."""
         self.confirmed = False
-        """The person has said "mounted", and the run has not taken it up yet."""
+        """The person has said "mounted" or "set", and the run has not taken it up yet."""
+        self.hand: HandRequest | None = None
+        """What a person is asked to set by hand."""
+        self.hand_refused: Message | None = None
+        """Why it is asked again."""
+        self.felt: Felt | None = None
+        self.by_hand = False
+        """The table has no wire: the operator is needed all the time."""
+        self.unsafe: tuple[Message, ...] = ()
+        """What did not work when the bench was made safe."""
         self.recorded: list[SegmentFinished] = []
         self.reading: BenchReading | None = None
         self.warnings: list[Warned] = []
@@ -145,6 +159,8 @@ class RunModel:
                 self._step_finished(self._line(step), t_s, skipped)
             case MountRequested():
                 self.request, self.confirmed, self.activity = event, False, None
+            case HandRequested() | HandFelt() | HandChecked() | MadeSafe():
+                self._by_hand(event)
             case MountingChecked():
                 self.check = event
             case Activity():
@@ -163,6 +179,21 @@ class RunModel:
             case Warned():
                 self.warnings.append(event)
 
+    def _by_hand(self, event: HandRequested | HandFelt | HandChecked | MadeSafe) -> None:
+        match event:
+            case HandRequested(request=request, because=because):
+                self.hand, self.hand_refused, self.by_hand = request, because, True
+                self.confirmed, self.felt = False, None
+            case HandFelt(felt=felt):
+                self.felt = felt
+            case HandChecked(finding=finding):
+                self.confirmed = False
+                self.hand_refused = None if finding.accepted else finding.message
+                if finding.accepted:
+                    self.hand = None
+            case MadeSafe(problems=problems):
+                self.unsafe = problems
+
     def _line(self, step: Step) -> StepLine:
         return self._lines.get(step.key) or self._add(step)
 
@@ -170,6 +201,8 @@ class RunModel:
         self.state, self.reason = event.state, event.reason
         if event.state == "running" and self.request is not None:
             self.mounted, self.request = self.request.orientation, None
+        if event.state in ("running", "aborting") or event.state in ENDED:
+            self.hand = self.felt = None
         if event.state in ENDED:
             self.segment = self.request = self.activity = None
             for line in self._lines.values():
@@ -205,6 +238,8 @@ class RunModel:
             return self.state
         if self.request is not None:
             return "mount"
+        if self.hand is not None:
+            return "hand"
         return "record" if self.segment is not None else "work"
 
     @property
@@ -253,7 +288,10 @@ class RunModel:
 
     @property
     def free_s(self) -> float | None:
-        """Bench time until the operator is needed again; while a mounting is asked for, from then on."""
+        """Bench time until the operator is needed again; while a mounting is asked for, from then on. None
+        where it is not known, and where the operator is needed all the time."""
+        if self.by_hand:
+            return None
         if self.request is None:
             return None if self.seen is None else self.seen.remaining_mounting_s
         lines = list(self._lines.values())

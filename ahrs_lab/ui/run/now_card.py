@@ -5,12 +5,15 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, Signal
 from PySide6.QtWidgets import QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
 
+from ahrs_lab.instruments.by_hand import HandRequest
 from ahrs_lab.ui.case_drawing import CaseDrawing
-from ahrs_lab.ui.run import words
+from ahrs_lab.ui.run import hand_words, words
 from ahrs_lab.ui.run.bridge import RunBridge
 from ahrs_lab.ui.run.end_view import EndView
+from ahrs_lab.ui.run.hand_view import HandView
 from ahrs_lab.ui.run.model import RunModel
 from ahrs_lab.ui.run.now_views import MountView, RecordView, WorkView
+from ahrs_lab.ui.run.turn_drawing import TurnDrawing
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Card, ElidedLabel, EmptyState, Label, Panel, PrimaryButton, QuietButton
@@ -19,8 +22,8 @@ _SIDE_PX = 252
 
 
 class NowCard(Card):
-    """``confirmed`` is the operator's "mounted"; ``pause`` the pause key; ``wanted`` names what an end
-    offers."""
+    """``confirmed`` is the operator's "mounted" or "set"; ``pause`` the pause key; ``wanted`` names what an
+    end offers."""
 
     confirmed = Signal()
     pause = Signal()
@@ -32,13 +35,19 @@ class NowCard(Card):
         self.drawing = CaseDrawing()
         self.mount = MountView()
         self.mount.confirmed.connect(self.confirmed)
+        self.table = TurnDrawing()
+        self.picture = QStackedWidget()
+        self.picture.addWidget(self.drawing)
+        self.picture.addWidget(self.table)
+        self.hand = HandView()
+        self.hand.confirmed.connect(self.confirmed)
         self.work = WorkView()
         self.record = RecordView(bridge)
         self.paused = _PausedView()
         self.paused.button.clicked.connect(self.pause)
         self.side = QStackedWidget()
         self.side.setFixedWidth(_SIDE_PX)
-        for view in (self.mount, self.work, self.record, self.paused):
+        for view in (self.mount, self.hand, self.work, self.record, self.paused):
             self.side.addWidget(view)
         self._title = ElidedLabel(role="title")
         self._subtitle = Label(tone="muted", wrap=True)
@@ -68,7 +77,7 @@ class NowCard(Card):
         column.addSpacing(GAP)
         row = QHBoxLayout()
         row.setSpacing(CARD_MARGIN)
-        row.addWidget(self.drawing, 1)
+        row.addWidget(self.picture, 1)
         row.addWidget(self.side)
         column.addLayout(row, 1)
         return page
@@ -89,9 +98,16 @@ class NowCard(Card):
         title, subtitle = self._texts(model)
         self._title.setText(title)
         self._subtitle.setText(subtitle)
-        view = {"mount": self.mount, "record": self.record, "paused": self.paused}.get(phase, self.work)
+        view = {
+            "mount": self.mount,
+            "hand": self.hand,
+            "record": self.record,
+            "paused": self.paused,
+        }.get(phase, self.work)
         if view is not self.paused:
             view.refresh(model)  # type: ignore[attr-defined]
+        self.table.show_request(model.hand)
+        self.picture.setCurrentWidget(self.table if phase == "hand" else self.drawing)
         self.side.setCurrentWidget(view)
         self._refresh_pause(model)
 
@@ -104,6 +120,8 @@ class NowCard(Card):
                 self.drawing.set_table_angle(model.reading.table.angle_deg)
 
     def _texts(self, model: RunModel) -> tuple[str, str]:
+        if model.hand is not None:
+            return hand_words.title(model.hand), self._hand_subtitle(model, model.hand)
         if model.state == "aborting":
             return self.tr("Stopping"), self.tr("The table comes to rest, then the supply goes off.")
         if model.phase == "paused":
@@ -118,6 +136,11 @@ class NowCard(Card):
         if step is None:
             return title, ""
         return title, f"{words.face(step.step.mounting)}: {words.step(step.step)}"
+
+    def _hand_subtitle(self, model: RunModel, request: HandRequest) -> str:
+        if model.state == "aborting":
+            return self.tr("The run is stopped. Only you can stop this table; then the supply goes off.")
+        return hand_words.how(request)
 
     def _mount_texts(self, model: RunModel) -> tuple[str, str]:
         assert model.request is not None

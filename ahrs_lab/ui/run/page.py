@@ -69,13 +69,13 @@ class RunPage(Page):
         self._bridge.started.connect(self._begin)
         self._bridge.changed.connect(self.refresh)
         self._bridge.ended.connect(self._end)
-        self.now.confirmed.connect(self._bridge.confirm_mounted)
+        self.now.confirmed.connect(self._bridge.confirm)
         self.now.pause.connect(self._bridge.toggle_pause)
         self.now.wanted.connect(self._wanted)
 
     def _keys(self) -> None:
         mounted = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
-        mounted.activated.connect(self._bridge.confirm_mounted)
+        mounted.activated.connect(self._bridge.confirm)
         pause = QShortcut(QKeySequence(Qt.Key.Key_P), self)
         pause.activated.connect(self._bridge.toggle_pause)
         self._space = mounted
@@ -87,7 +87,7 @@ class RunPage(Page):
     def refresh(self) -> None:
         """Look at the run."""
         # Elsewhere the space bar presses the button that has the focus.
-        self._space.setEnabled(self._bridge.model.phase == "mount")
+        self._space.setEnabled(self._bridge.model.phase in ("mount", "hand"))
         self.steps.refresh(self._bridge.model)
         self.now.refresh()
         self.readings.refresh()

@@ -6,9 +6,8 @@ import re
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
-from ahrs_lab.errors import AbortedError, InputError, InstrumentError
+from ahrs_lab.errors import InputError, InstrumentError
 from ahrs_lab.instruments.drivers.tables.actidyn import ActidynSettings, ActidynTable
 from ahrs_lab.instruments.drivers.tables.ascii_table import (
     AsciiTable,
@@ -17,7 +16,6 @@ from ahrs_lab.instruments.drivers.tables.ascii_table import (
     template_from_text,
 )
 from ahrs_lab.instruments.drivers.tables.atl import AtlSettings, AtlTable
-from ahrs_lab.instruments.drivers.tables.manual import ManualRequest, ManualSettings, ManualTable
 from ahrs_lab.instruments.drivers.tables.polled_table import PolledTable
 from ahrs_lab.instruments.drivers.tables.soft_limits import SoftLimits
 from ahrs_lab.instruments.links.link import Link
@@ -195,102 +193,6 @@ def test_a_text_that_is_not_answered_shows_that() -> None:
     table = AsciiTable(settings, FakeLink(lambda request: b""), clock)
     (trial,) = table.try_template("query")
     assert (trial.reply, trial.good) == (None, False)
-
-
-class Hand:
-    """An operator who does what is asked, and a unit on the table that sees it with a scale error."""
-
-    def __init__(self) -> None:
-        self.clock = FakeClock()
-        self.rate = 0.0
-        self.scale = 1.01
-        self.asked: list[ManualRequest] = []
-        self.obeys = True
-        self._fresh: list[tuple[float, float]] = []
-        self.table = ManualTable(ManualSettings(LIMITS), self.clock, self.ask, self.rates)
-
-    def ask(self, request: ManualRequest) -> None:
-        self.asked.append(request)
-        if request.kind == "position" and self.obeys:
-            self.run(
-                request.rate_dps * np.sign(request.travel_deg), abs(request.travel_deg) / request.rate_dps
-            )
-            self.run(0.0, 1.0)
-        if request.kind in ("rate", "stop") and self.obeys:
-            self.run(request.rate_dps, 1.0)
-
-    def run(self, rate: float, seconds: float) -> None:
-        """The table turns at ``rate``; the unit sends a sample every hundredth of a second."""
-        self.rate = rate
-        for _ in range(round(seconds * 100)):
-            self.clock.t_s += 0.01
-            self._fresh.append((self.clock.t_s, self.rate * self.scale))
-
-    def rates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        rows = np.array(self._fresh).reshape(-1, 2)
-        self._fresh.clear()
-        return rows[:, 0], rows[:, 1]
-
-
-def test_a_manual_table_asks_and_believes_what_the_unit_roughly_confirms() -> None:
-    hand = Hand()
-    hand.table.enable()
-    hand.table.set_rate(40.0)
-    hand.run(40.0, 2.0)
-    state = hand.table.state()
-    assert state.rate_dps == 40.0  # not 40.4: the unit's scale factor is not the table's
-    assert state.moving
-    assert "+40 °/s" in str(hand.asked[-1].message)
-    hand.table.stop()
-    assert hand.asked[-1].kind == "stop"
-    hand.run(0.0, 1.0)
-    assert not hand.table.state().moving
-    asked = len(hand.asked)
-    hand.table.stop()
-    assert len(hand.asked) == asked
-
-
-def test_a_manual_table_shows_what_the_unit_sees_where_it_disagrees() -> None:
-    hand = Hand()
-    hand.obeys = False
-    hand.table.set_rate(40.0)
-    hand.run(-40.0, 1.0)
-    assert hand.table.state().rate_dps == pytest.approx(-40.4)
-    log = hand.table.log()
-    assert len(log.t_s) == 100
-    assert np.ptp(log.angle_deg) == pytest.approx(40.4, rel=0.02)
-
-
-def test_turns_made_by_hand_end_at_the_angle_asked_for() -> None:
-    hand = Hand()
-    hand.run(0.0, 1.0)
-    hand.table.move_to(3600.0, 50.0)
-    assert hand.table.state().angle_deg == 3600.0
-    assert "+10 turns" in str(hand.asked[-1].message)
-    hand.table.move_to(0.0, 50.0)
-    assert hand.table.state().angle_deg == 0.0
-    assert not hand.table.state().moving
-
-
-def test_turns_that_the_unit_has_not_seen_are_refused() -> None:
-    hand = Hand()
-    hand.run(0.0, 1.0)
-    hand.obeys = False
-    with pytest.raises(InstrumentError, match="not by 3600"):
-        hand.table.move_to(3600.0, 50.0)
-
-
-def test_an_operator_who_gives_up_ends_it() -> None:
-    hand = Hand()
-
-    def give_up(request: ManualRequest) -> None:
-        raise AbortedError("enough")
-
-    table = ManualTable(ManualSettings(LIMITS), hand.clock, give_up, hand.rates)
-    with pytest.raises(AbortedError):
-        table.set_rate(10.0)
-    with pytest.raises(InputError):
-        table.set_rate(1000.0)
 
 
 def test_every_polled_table_is_one() -> None:

@@ -1,92 +1,65 @@
 """A table without a link: the operator sets it by hand, the application asks, and the unit on it tells
 whether it happened.
 
-What the unit shows is good enough to tell 10 °/s from −10 °/s and from standing still, not to measure the
-table: its scale factor is what is being calibrated. So the rate is taken to be the one that was asked for as
-long as the unit agrees with it roughly, and the unit's own where it does not.
+The rate is taken to be the one that was asked for as long as the unit agrees with it roughly, and the unit's
+own where it does not: see :mod:`~ahrs_lab.instruments.drivers.tables.felt_motion`.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ahrs_lab.errors import InstrumentError
-from ahrs_lab.instruments.drivers.tables.soft_limits import SoftLimits
+from ahrs_lab.instruments.by_hand import Felt, HandFinding, HandRequest
+from ahrs_lab.instruments.drivers.tables.felt_motion import (
+    FeltRates,
+    ManualSettings,
+    SteadyHold,
+    enough,
+    judge_rate,
+    judge_rest,
+    judge_travel,
+    sense,
+    travel_is_right,
+)
 from ahrs_lab.instruments.interfaces import Clock, TableLog, TableState
-from ahrs_lab.instruments.settings import within
 from ahrs_lab.messages import Message
 
 Array = NDArray[np.float64]
 
-_AT_REST_DPS = 0.5
-
-
-@dataclass(frozen=True)
-class ManualSettings:
-    """``relative_tolerance`` and ``tolerance_dps``: how far the unit's rate may be from what was asked for
-    and still count as it; ``turn_tolerance``: the same of an angle travelled, relative, at least
-    ``angle_tolerance_deg``."""
-
-    limits: SoftLimits
-    name: str = "manual rate table"
-    relative_tolerance: float = 0.05
-    tolerance_dps: float = 0.5
-    turn_tolerance: float = 0.05
-    angle_tolerance_deg: float = 10.0
-
-    def __post_init__(self) -> None:
-        within("relative_tolerance", self.relative_tolerance, 0.0, 0.5)
-        within("tolerance_dps", self.tolerance_dps, 0.01, 10.0)
-        within("turn_tolerance", self.turn_tolerance, 0.0, 0.5)
-        within("angle_tolerance_deg", self.angle_tolerance_deg, 0.1, 90.0)
-
-
-@dataclass(frozen=True)
-class ManualRequest:
-    """What the operator is asked to do; ``message`` says it. ``travel_deg``: from where the table stands."""
-
-    kind: Literal["enable", "rate", "position", "stop", "disable"]
-    message: Message
-    rate_dps: float = 0.0
-    angle_deg: float = 0.0
-    travel_deg: float = 0.0
+_FRESH_S = 1.0
+"""What was felt longer ago says nothing of now."""
+_NOW_S = 0.5
+_SHOWN_S = 1.0
+_SAME_DEG = 0.5
+"""Nobody is asked to turn a table by less."""
 
 
 class ManualTable:
-    """A :class:`~ahrs_lab.instruments.interfaces.RateTable`.
+    """A :class:`~ahrs_lab.instruments.interfaces.RateTable` that is
+    :class:`~ahrs_lab.instruments.by_hand.SetByHand`. Angles count from the zero mark at which it is switched
+    on."""
 
-    ``ask`` shows a request and returns when the operator confirms; it raises AbortedError where the person
-    gives up. Calls that move the table therefore take as long as the person does. ``rates`` gives bench times
-    and the unit's rates about the table's axis (°/s, right hand about up) since it was called last; empty
-    while the unit does not stream, then the confirmation is all there is.
-    """
-
-    def __init__(
-        self,
-        settings: ManualSettings,
-        clock: Clock,
-        ask: Callable[[ManualRequest], None],
-        rates: Callable[[], tuple[Array, Array]],
-    ) -> None:
+    def __init__(self, settings: ManualSettings, clock: Clock) -> None:
         self.limits = settings.limits.table_limits
         self._settings = settings
         self._clock = clock
-        self._ask = ask
-        self._rates = rates
         self._lock = threading.RLock()
+        self._request: HandRequest | None = None
         self._enabled = False
         self._demanded_dps = 0.0
         self._confirmed = True
+        self._turning = False
         self._angle_deg = 0.0
+        self._angle_known = False
         self._rate_dps = 0.0
-        self._seen_s: float | None = None
+        self._felt = FeltRates()
+        self._hold = SteadyHold()
         self._log: list[Array] = []
+
+    # the interface of a table ─────────────────────────────────────────────────────────────────────────────
 
     def open(self) -> str:
         """There is nothing to connect."""
@@ -97,88 +70,70 @@ class ManualTable:
         return self._settings.name
 
     def enable(self) -> None:
-        """Ask for the table to be switched on."""
+        """Ask for the table to be switched on, at its zero mark."""
         self._ask(
-            ManualRequest("enable", Message("Switch the rate table on and make sure that it stands still."))
+            HandRequest(
+                "switch_on",
+                Message("Switch the rate table on and let it stand still at its zero mark."),
+            )
         )
-        self._enabled = True
 
     def disable(self) -> None:
         """Ask for the table to be switched off."""
-        self._ask(ManualRequest("disable", Message("Stop the rate table and switch it off.")))
-        self._enabled, self._demanded_dps = False, 0.0
+        self._ask(HandRequest("switch_off", Message("Stop the rate table and switch it off.")))
 
     def set_rate(self, rate_dps: float) -> None:
-        """Ask for a rate; returns when the operator says that it is reached."""
+        """Ask for a rate. Raises InputError beyond the limits."""
         self._settings.limits.check_rate(rate_dps)
-        self._demand(rate_dps)
+        if rate_dps == 0.0:
+            self.stop()
+            return
         message = Message(
-            "Set the rate table to {rate} °/s (positive: anticlockwise seen from above) and confirm when "
-            "it turns steadily.",
+            "Set the rate table to {rate} °/s ({sense} seen from above) and confirm when it turns steadily.",
             rate=f"{rate_dps:+g}",
+            sense=sense(rate_dps),
         )
-        self._ask(ManualRequest("rate", message, rate_dps=rate_dps))
-        self._confirmed = True
+        self._ask(HandRequest("rate", message, rate_dps=rate_dps), rate_dps)
 
     def move_to(self, angle_deg: float, rate_dps: float) -> None:
-        """Ask for an angle; returns when the operator says that the table stands there. Raises
-        InstrumentError where the unit has seen another angle travelled."""
+        """Ask for an angle or, where the way there is whole turns, for these; nothing is asked where the
+        table stands there. Raises InputError beyond the limits."""
         self._settings.limits.check_move(angle_deg, rate_dps)
-        self._follow()
-        start = self._angle_deg
-        travel = angle_deg - start
-        self._demand(0.0)
-        message = Message(
-            "Turn the rate table by {travel}° ({turns} turns; positive: anticlockwise seen from above) "
-            "with at most {rate} °/s, to {angle}°, and confirm when it stands there.",
-            travel=f"{travel:+g}",
-            turns=f"{travel / 360.0:+.3g}",
-            rate=f"{rate_dps:g}",
-            angle=f"{angle_deg:g}",
-        )
-        request = ManualRequest("position", message, rate_dps, angle_deg, travel)
-        self._confirmed = False
-        self._ask(request)
-        seen = self._follow()
         with self._lock:
-            travelled = self._angle_deg - start
-            self._confirmed = True
-            allowed = max(self._settings.angle_tolerance_deg, self._settings.turn_tolerance * abs(travel))
-            if seen and abs(travelled - travel) > allowed:
-                raise InstrumentError(
-                    "The device has seen the table turn by {seen}°, not by {asked}°: turn it back and "
-                    "start this step again.",
-                    seen=round(travelled, 1),
-                    asked=round(travel, 1),
-                )
-            self._angle_deg = angle_deg
-            self._log.append(np.array([[self._clock.now_s(), angle_deg, self._rate_dps]]))
+            travel = angle_deg - self._angle_deg
+            turns = round(travel / 360.0)
+            if self._angle_known and abs(travel) < _SAME_DEG:
+                self._stand_at(angle_deg)
+            elif turns and abs(travel - 360.0 * turns) < _SAME_DEG:
+                self._ask(_turns(turns, travel, angle_deg, rate_dps))
+            else:
+                self._ask(_angle(travel, angle_deg, rate_dps))
 
     def stop(self) -> None:
-        """Ask for the table to be stopped; nothing is asked where it stands still."""
-        moving = self.state().moving
-        self._demand(0.0)
-        if moving:
-            self._ask(ManualRequest("stop", Message("Stop the rate table and confirm when it stands still.")))
-        self._confirmed = True
+        """Ask for the table to be brought to rest; nothing is asked where it stands still."""
+        with self._lock:
+            if self._moves():
+                message = Message("Bring the rate table to rest by hand and confirm when it stands still.")
+                self._ask(HandRequest("rest", message))
+            else:
+                self._request, self._demanded_dps, self._turning = None, 0.0, False
 
     def state(self) -> TableState:
         """What was confirmed, unless the unit shows otherwise."""
-        self._follow()
         with self._lock:
-            now = self._clock.now_s()
+            feels, last = self._feels(), self._felt.last_s
+            unfelt = self._demanded_dps if self._confirmed else 0.0
             return TableState(
-                t_s=now if self._seen_s is None else max(self._seen_s, 0.0),
+                t_s=last if feels and last is not None else self._clock.now_s(),
                 angle_deg=self._angle_deg,
-                rate_dps=self._rate_dps if self._seen_s is not None else self._demanded_dps,
+                rate_dps=self._rate_dps if feels else unfelt,
                 demanded_rate_dps=self._demanded_dps,
-                moving=abs(self._rate_dps) > _AT_REST_DPS or self._demanded_dps != 0.0,
+                moving=self._moves(),
                 enabled=self._enabled,
             )
 
     def log(self) -> TableLog:
         """Rates and integrated angles at the unit's own samples."""
-        self._follow()
         with self._lock:
             rows = np.concatenate([np.empty((0, 3)), *self._log])
             self._log.clear()
@@ -187,31 +142,151 @@ class ManualTable:
     def close(self) -> None:
         """Nothing to release."""
 
-    def _demand(self, rate_dps: float) -> None:
-        self._follow()
-        with self._lock:
-            self._demanded_dps, self._confirmed = rate_dps, False
+    # set by hand ──────────────────────────────────────────────────────────────────────────────────────────
 
-    def _follow(self) -> bool:
-        """Take in what the unit has seen; whether it has ever seen anything."""
+    @property
+    def request(self) -> HandRequest | None:
+        """See :class:`~ahrs_lab.instruments.by_hand.SetByHand`."""
+        return self._request
+
+    def feel(self, t_s: Array, rate_dps: Array) -> None:
+        """See :class:`~ahrs_lab.instruments.by_hand.SetByHand`."""
         with self._lock:
-            t, seen = self._rates()
+            last = self._felt.last_s
+            later = slice(0 if last is None else int(np.searchsorted(t_s, last, side="right")), None)
+            t, seen = t_s[later], rate_dps[later]
             if not len(t):
-                return self._seen_s is not None
-            rates = self._believed(np.asarray(seen, dtype=np.float64))
-            before_t = t[0] if self._seen_s is None else self._seen_s
-            before_rate = rates[0] if self._seen_s is None else self._rate_dps
-            steps = np.diff(t, prepend=before_t)
-            means = 0.5 * (rates + np.concatenate([[before_rate], rates[:-1]]))
-            angles = self._angle_deg + np.cumsum(means * steps)
+                return
+            rates = self._believed(seen)
+            steps = np.diff(t, prepend=t[0] if last is None else last)
+            before = np.concatenate([[rates[0] if last is None else self._rate_dps], rates[:-1]])
+            angles = self._angle_deg + np.cumsum(0.5 * (rates + before) * steps)
             self._log.append(np.column_stack([t, angles, rates]))
-            self._seen_s = float(t[-1])
             self._angle_deg, self._rate_dps = float(angles[-1]), float(rates[-1])
-            return True
+            self._felt.add(t, seen)
+            allowed = self._settings.allowed_dps(self._demanded_dps)
+            self._hold.add(t, seen, self._demanded_dps, allowed)
+
+    def felt(self) -> Felt:
+        """See :class:`~ahrs_lab.instruments.by_hand.SetByHand`."""
+        with self._lock:
+            request = self._request
+            wanted = request.rate_dps if request is not None and request.kind == "rate" else 0.0
+            allowed = self._settings.allowed_dps(wanted)
+            if not self._feels():
+                return Felt(None, None, allowed, False)
+            rate, travel = self._felt.mean_dps(_SHOWN_S), self._felt.angle_deg
+            holds = abs(rate - wanted) <= allowed
+            if request is not None and self._travel_tells(request):
+                allowed = self._settings.allowed_deg(request.travel_deg)
+                holds = holds and travel_is_right(travel, request, self._settings)
+            return Felt(rate, travel, allowed, holds)
+
+    def check(self, since_s: float, *, blind: bool) -> HandFinding | None:
+        """See :class:`~ahrs_lab.instruments.by_hand.SetByHand`."""
+        with self._lock:
+            request = self._request
+            if request is None or blind:
+                finding = HandFinding(True, False, _OPERATORS_WORD)
+            else:
+                last = self._felt.last_s or 0.0
+                rates = self._felt.since(since_s)
+                if last - since_s < 0.8 * self._settings.check_s or not enough(rates):
+                    return None
+                finding = self._judge(request, rates)
+            if request is not None and finding.accepted:
+                self._accept(request)
+            elif finding.begin_again:
+                self._angle_known = False
+            return finding
+
+    def strayed(self) -> HandFinding | None:
+        """See :class:`~ahrs_lab.instruments.by_hand.SetByHand`."""
+        with self._lock:
+            off, self._hold.off_dps = self._hold.off_dps, None
+            if off is None:
+                return None
+            message = Message(
+                "The table has not kept {asked} °/s while it was recorded: the device has felt {felt} °/s. "
+                "That recording does not count; it is made again.",
+                asked=f"{self._demanded_dps:+g}" if self._demanded_dps else "0",
+                felt=f"{off:+.2f}",
+            )
+            return HandFinding(False, True, message, begin_again=True)
+
+    # ──────────────────────────────────────────────────────────────────────────────────────────────────────
+
+    def _ask(self, request: HandRequest, rate_dps: float = 0.0) -> None:
+        with self._lock:
+            if request.kind in ("rate", "angle", "turns"):
+                self._turning = True
+            if request.kind == "rate":
+                self._angle_known = False
+            self._request, self._demanded_dps, self._confirmed = request, rate_dps, False
+            self._felt.restart()
+            self._hold.restart(None)
+
+    def _judge(self, request: HandRequest, rates: Array) -> HandFinding:
+        if request.kind == "rate":
+            return judge_rate(rates, request.rate_dps, self._settings)
+        rest = judge_rest(rates, self._settings)
+        if rest.accepted and self._travel_tells(request):
+            return judge_travel(self._felt.angle_deg, request, self._settings)
+        return rest
+
+    def _travel_tells(self, request: HandRequest) -> bool:
+        """Turns count from wherever they begin; an angle only from one that is known."""
+        return request.kind == "turns" or (request.kind == "angle" and self._angle_known)
+
+    def _accept(self, request: HandRequest) -> None:
+        self._request, self._confirmed = None, True
+        self._turning = request.kind == "rate"
+        self._hold.restart(self._felt.last_s)
+        if request.kind in ("switch_on", "switch_off"):
+            self._enabled = request.kind == "switch_on"
+        if request.kind in ("switch_on", "angle", "turns"):
+            self._stand_at(request.angle_deg)
+
+    def _stand_at(self, angle_deg: float) -> None:
+        self._angle_deg, self._angle_known = angle_deg, True
+        self._log.append(np.array([[self._clock.now_s(), angle_deg, 0.0]]))
+
+    def _feels(self) -> bool:
+        last = self._felt.last_s
+        return last is not None and self._clock.now_s() - last < _FRESH_S
+
+    def _moves(self) -> bool:
+        if self._feels():
+            return abs(self._felt.mean_dps(_NOW_S)) > self._settings.tolerance_dps
+        return self._turning
 
     def _believed(self, seen: Array) -> Array:
         if not self._confirmed:
             return seen
-        s = self._settings
-        allowed = max(s.tolerance_dps, s.relative_tolerance * abs(self._demanded_dps))
+        allowed = self._settings.allowed_dps(self._demanded_dps)
         return np.where(np.abs(seen - self._demanded_dps) <= allowed, self._demanded_dps, seen)
+
+
+_OPERATORS_WORD = Message(
+    "The device does not tell what the table does: that it does what was asked is the operator's word."
+)
+
+
+def _turns(turns: int, travel: float, angle_deg: float, rate_dps: float) -> HandRequest:
+    message = Message(
+        "Turn the rate table by {turns} whole turns ({sense} seen from above) with at most {rate} °/s, bring "
+        "it to rest where it began, and confirm.",
+        turns=abs(turns),
+        sense=sense(travel),
+        rate=f"{rate_dps:g}",
+    )
+    return HandRequest("turns", message, rate_dps, angle_deg, travel)
+
+
+def _angle(travel: float, angle_deg: float, rate_dps: float) -> HandRequest:
+    message = Message(
+        "Turn the rate table to {angle}° on its scale (counted anticlockwise seen from above) and confirm "
+        "when it stands still there.",
+        angle=f"{angle_deg % 360.0:g}",
+    )
+    return HandRequest("angle", message, rate_dps, angle_deg, travel)

@@ -151,9 +151,9 @@ class TableView(Translated):
         self.drive.setEnabled(connected)
         self.apply.setEnabled(connected)
         self.drive.setText(self.tr("Switch the drive off") if enabled else self.tr("Switch the drive on"))
-        self.ask_rate.setEnabled(connected and (desk is None or desk.answer.pending is None))
+        self.ask_rate.setEnabled(connected and (desk is None or desk.hand_request is None))
         self._show_watch(connected, desk)
-        pending = desk.answer.pending if desk is not None else None
+        pending = desk.hand_request if desk is not None else None
         self.request.setVisible(pending is not None)
         if pending is not None:
             self._asked.setText(said(pending.message))
@@ -207,8 +207,7 @@ class TableView(Translated):
             self._session.attempt(lambda desk: desk.set_rate(rate))
 
     def _confirm(self) -> None:
-        if self._session.desk is not None:
-            self._session.desk.answer.confirm()
+        self._session.attempt(lambda desk: desk.confirm_set())
 
     def retranslate(self) -> None:
         self._readings.set_title(self.tr("Rate table now"))

@@ -78,6 +78,7 @@ class ByHand:
         because, self._because = self._because, None
         setter.ask(table.request, because)
         self._emit(HandRequested(table.request, because))
+        self._emit(HandFelt(table.felt()))
         self._waiting(True)
         try:
             self._until_it_holds(table, setter)
@@ -87,7 +88,8 @@ class ByHand:
     def _until_it_holds(self, table: SetByHand, setter: Setter) -> None:
         while (request := table.request) is not None:
             if not setter.has_set(_LOOK_S):
-                self._watch.let_pass(_LOOK_S)
+                # A fast virtual bench keeps its pace while somebody is asked.
+                self._watch.let_pass(max(_LOOK_S, self._bench.clock.step_s or 0.0))
                 self._emit(HandFelt(table.felt()))
                 continue
             finding = self._checked(table)

@@ -672,15 +672,15 @@
     </message>
     <message>
         <source>Space</source>
-        <translation type="unfinished">空格</translation>
+        <translation>空格</translation>
     </message>
     <message>
         <source>The device has felt</source>
-        <translation>设备测得转过</translation>
+        <translation>航姿仪测得转过</translation>
     </message>
     <message>
         <source>The device feels</source>
-        <translation>设备测得</translation>
+        <translation>航姿仪测得</translation>
     </message>
     <message>
         <source>as asked, within {allowed}</source>
@@ -696,7 +696,7 @@
     </message>
     <message>
         <source>The device feels nothing of it now, so your word is taken: look twice before confirming.</source>
-        <translation>设备目前无法测得转台的状态，以您的确认为准：请看清后再确认。</translation>
+        <translation>航姿仪目前无法测得转台的状态，以您的确认为准：请看清后再确认。</translation>
     </message>
 </context>
 <context>
@@ -2819,12 +2819,20 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>Esc</translation>
     </message>
     <message>
+        <source>Bring the table to rest by hand; then the supply is switched off …</source>
+        <translation>请手动使转台停止；随后断开电源 …</translation>
+    </message>
+    <message>
         <source>Stopping the table, then switching the supply off …</source>
         <translation>正在停止转台，随后断开电源…</translation>
     </message>
     <message>
         <source>No run is going on: there is nothing to stop.</source>
         <translation>没有正在进行的运行，无需停止。</translation>
+    </message>
+    <message>
+        <source>Ends the run, then switches the supply off. This table only you can bring to rest.</source>
+        <translation>结束运行，然后断开电源。此转台只能由您停下。</translation>
     </message>
     <message>
         <source>Stops the table, then switches the supply off. This is not the hardware emergency stop.</source>

@@ -27,7 +27,7 @@ from tests.ui.clipped_text import clipped_texts, outside
 from tests.ui.conftest import Look
 from tests.ui.playing import Hands
 
-_SPEED = 60.0
+_SPEED = 80.0
 
 
 class Operator:

@@ -68,12 +68,21 @@ class StopBar(QFrame):
     def retranslate(self) -> None:
         """Set every text."""
         self.button.setText(self.tr("STOP") + "   " + self.tr("Esc"))
-        if self._workspace.run.model.state == "aborting":
+        model = self._workspace.run.model
+        if model.state == "aborting" and model.by_hand:
+            self.hint.setText(self.tr("Bring the table to rest by hand; then the supply is switched off …"))
+            self.hint.set_tone("bad")
+        elif model.state == "aborting":
             self.hint.setText(self.tr("Stopping the table, then switching the supply off …"))
             self.hint.set_tone("bad")
         elif self._answer == "idle":
             self.hint.setText(self.tr("No run is going on: there is nothing to stop."))
             self.hint.set_tone("text")
+        elif model.live and model.by_hand:
+            self.hint.setText(
+                self.tr("Ends the run, then switches the supply off. This table only you can bring to rest.")
+            )
+            self.hint.set_tone("warn")
         else:
             self.hint.setText(
                 self.tr(

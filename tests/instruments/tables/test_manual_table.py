@@ -57,7 +57,7 @@ def test_a_demand_returns_at_once_and_says_what_to_do(hand: Hand) -> None:
     assert hand.table.request.kind == "rate"
     assert "+40 °/s (anticlockwise" in str(hand.table.request.message)
     hand.table.set_rate(-40.0)
-    assert "-40 °/s (clockwise" in str(hand.table.request.message)
+    assert "\N{MINUS SIGN}40 °/s (clockwise" in str(hand.table.request.message)
     with pytest.raises(InputError):
         hand.table.set_rate(1000.0)
 
@@ -76,7 +76,10 @@ def test_what_the_unit_roughly_confirms_is_the_rate_that_was_asked_for(hand: Han
 @pytest.mark.parametrize(
     ("felt", "says"),
     [
-        (-40.0, "feels -40.40 °/s: the table turns the wrong way. Set it to \\+40 °/s, anticlockwise"),
+        (
+            -40.0,
+            "feels \N{MINUS SIGN}40.40 °/s: the table turns the wrong way. Set it to \\+40 °/s",
+        ),
         (0.0, "at rest. Set it to \\+40 °/s"),
         (44.0, "feels \\+44.44 °/s, not \\+40 °/s; up to 2 °/s off"),
     ],
@@ -139,7 +142,7 @@ def test_turns_end_at_the_angle_asked_for_and_are_counted_with_their_sense(hand:
     finding = hand.says_done(0.0)
     assert not finding.accepted
     assert finding.begin_again
-    assert "by -364°, not by -720°" in str(finding.message)
+    assert "by \N{MINUS SIGN}364°, not by \N{MINUS SIGN}720°" in str(finding.message)
 
 
 def test_to_an_angle_any_way_is_good(hand: Hand) -> None:

@@ -132,7 +132,7 @@ def judge_rest(rates: Array, settings: ManualSettings) -> HandFinding:
         True,
         Message(
             "The device feels the table turn at {felt} °/s. Bring it to rest, then confirm again.",
-            felt=f"{worst:+.2f}",
+            felt=signed(worst, 2),
         ),
     )
 
@@ -142,13 +142,13 @@ def judge_rate(rates: Array, asked_dps: float, settings: ManualSettings) -> Hand
     allowed, mean = settings.allowed_dps(asked_dps), float(rates.mean())
     worst = _worst_part(rates, asked_dps)
     if abs(worst - asked_dps) <= allowed:
-        message = Message("The device feels {felt} °/s.", felt=f"{mean:+.2f}")
+        message = Message("The device feels {felt} °/s.", felt=signed(mean, 2))
         return HandFinding(True, True, message)
     return HandFinding(False, True, _wrong_rate(mean, asked_dps, worst, allowed, settings))
 
 
 def _wrong_rate(mean: float, asked: float, worst: float, allowed: float, settings: ManualSettings) -> Message:
-    known = {"asked": f"{asked:+g}", "felt": f"{mean:+.2f}", "sense": sense(asked)}
+    known = {"asked": signed(asked), "felt": signed(mean, 2), "sense": sense(asked)}
     if abs(mean) <= settings.tolerance_dps and abs(asked) > settings.tolerance_dps:
         return Message(
             "The device feels the table at rest. Set it to {asked} °/s, {sense} seen from above, then "
@@ -165,8 +165,8 @@ def _wrong_rate(mean: float, asked: float, worst: float, allowed: float, setting
         return Message(
             "The device feels a rate that still changes, between {felt} °/s and {worst} °/s. Wait until the "
             "table turns steadily, then confirm again.",
-            felt=f"{mean:+.2f}",
-            worst=f"{worst:+.2f}",
+            felt=signed(mean, 2),
+            worst=signed(worst, 2),
         )
     return Message(
         "The device feels {felt} °/s, not {asked} °/s; up to {allowed} °/s off are accepted. Set the table "
@@ -179,9 +179,9 @@ def _wrong_rate(mean: float, asked: float, worst: float, allowed: float, setting
 def judge_travel(travelled_deg: float, request: HandRequest, settings: ManualSettings) -> HandFinding:
     """The table, which rests, has turned by ``request.travel_deg``."""
     if travel_is_right(travelled_deg, request, settings):
-        message = Message("The device has felt {felt}°.", felt=f"{travelled_deg:+.1f}")
+        message = Message("The device has felt {felt}°.", felt=signed(travelled_deg, 1))
         return HandFinding(True, True, message)
-    known = {"felt": f"{travelled_deg:+.0f}", "asked": f"{request.travel_deg:+.0f}"}
+    known = {"felt": signed(travelled_deg, 0), "asked": signed(request.travel_deg, 0)}
     if request.kind == "turns":
         message = Message("The device has felt the table turn by {felt}°, not by {asked}°.", **known)
         return HandFinding(False, True, message, begin_again=True)
@@ -208,6 +208,12 @@ def travel_is_right(travelled_deg: float, request: HandRequest, settings: Manual
 def sense(rate_dps: float) -> Message:
     """The sense of rotation, seen from above."""
     return Message("anticlockwise") if rate_dps > 0 else Message("clockwise")
+
+
+def signed(value: float, decimals: int | None = None) -> str:
+    """With its sign, a true minus; without ``decimals`` as many digits as are meant."""
+    text = f"{value:+g}" if decimals is None else f"{value:+.{decimals}f}"
+    return text.replace("-", "\N{MINUS SIGN}")
 
 
 def enough(rates: Array) -> bool:

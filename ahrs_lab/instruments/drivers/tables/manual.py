@@ -22,6 +22,7 @@ from ahrs_lab.instruments.drivers.tables.felt_motion import (
     judge_rest,
     judge_travel,
     sense,
+    signed,
     travel_is_right,
 )
 from ahrs_lab.instruments.interfaces import Clock, TableLog, TableState
@@ -90,7 +91,7 @@ class ManualTable:
             return
         message = Message(
             "Set the rate table to {rate} °/s ({sense} seen from above) and confirm when it turns steadily.",
-            rate=f"{rate_dps:+g}",
+            rate=signed(rate_dps),
             sense=sense(rate_dps),
         )
         self._ask(HandRequest("rate", message, rate_dps=rate_dps), rate_dps)
@@ -209,8 +210,8 @@ class ManualTable:
             message = Message(
                 "The table has not kept {asked} °/s while it was recorded: the device has felt {felt} °/s. "
                 "That recording does not count; it is made again.",
-                asked=f"{self._demanded_dps:+g}" if self._demanded_dps else "0",
-                felt=f"{off:+.2f}",
+                asked=signed(self._demanded_dps) if self._demanded_dps else "0",
+                felt=signed(off, 2),
             )
             return HandFinding(False, True, message, begin_again=True)
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.diagnosis.model import Diagnosis
 
 AxisName = Literal["x", "y", "z"]
 Method = Literal["gum", "annex-a"]
@@ -200,3 +201,5 @@ class CalibrationResult:
     site: Mapping[str, Any] = field(default_factory=dict)
     notes: Mapping[str, Any] = field(default_factory=dict)
     simulated: bool = False
+    diagnosis: Diagnosis | None = None
+    """None in a result that an earlier version wrote."""

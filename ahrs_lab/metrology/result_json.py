@@ -14,6 +14,7 @@ from typing import Any, cast, get_args
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.diagnosis.diagnosis_json import diagnosis_json, read_diagnosis
 from ahrs_lab.metrology.json_reader import JsonReader, message_from_json
 from ahrs_lab.metrology.result import (
     MISALIGNMENT_KEYS,
@@ -58,6 +59,7 @@ def to_json(result: CalibrationResult) -> dict[str, Any]:
         "site": _plain(result.site),
         "notes": _plain(result.notes),
         "simulated": result.simulated,
+        "diagnosis": None if result.diagnosis is None else diagnosis_json(result.diagnosis),
     }
     json.dumps(data, allow_nan=False)
     return data
@@ -102,6 +104,9 @@ def from_json(data: object) -> CalibrationResult:
         site=dict(reader.object("site").data) if reader.has("site") else {},
         notes=dict(reader.object("notes").data) if reader.has("notes") else {},
         simulated=reader.data.get("simulated") is True,
+        diagnosis=(
+            read_diagnosis(reader.object("diagnosis"), MISALIGNMENT_KEYS) if reader.has("diagnosis") else None
+        ),
     )
 
 

@@ -20,6 +20,7 @@ from ahrs_lab.metrology.result import (
     ResultWarning,
     ScaleFactorResult,
 )
+from ahrs_lab.procedures.reduction_diagnosis import diagnose
 from ahrs_lab.procedures.reduction_evidence import Evidence, RateSource
 from ahrs_lab.procedures.reduction_misalignment import reduce_misalignments
 from ahrs_lab.procedures.reduction_scale_factor import reduce_scale_factor
@@ -83,6 +84,8 @@ def _reduce(
     warnings += said
     if not scale_factors and not zero_offsets and not misalignments:
         raise _nothing(warnings)
+    diagnosis, said = diagnose(evidence, scale_factors, zero_offsets, misalignments)
+    warnings += said
     return CalibrationResult(
         procedure=header.procedure,
         bundle_sha256=recording.sha256,
@@ -97,6 +100,7 @@ def _reduce(
         site=_site(header),
         notes={**header.notes, **_set_aside(recording)},
         simulated=header.notes.get("simulated") is True,
+        diagnosis=diagnosis,
     )
 
 

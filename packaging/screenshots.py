@@ -26,6 +26,7 @@ from ahrs_lab.laboratory.laboratory import Laboratory
 from ahrs_lab.messages import Message
 from ahrs_lab.simulation.clock import SimulatedClock
 from ahrs_lab.ui.application import Screen
+from ahrs_lab.ui.pages.results.page import ResultsPage
 from ahrs_lab.ui.run.model import RunModel
 
 PATIENCE_S = 120.0
@@ -90,12 +91,22 @@ class Photographer:
         go("results")
         self._settle(1.0)
         self.take("results")
+        self._diagnosis()
         go("certificate")
         self.until(lambda: not desk.background.busy)
         self.take("certificate")
         for page in ("bench", "setup"):
             go(page)
             self.take(page)
+
+    def _diagnosis(self) -> None:
+        results = self._screen.window.findChild(ResultsPage)
+        assert results is not None
+        results.tabs.setCurrentIndex(results.tabs.count() - 2)
+        for key in ("K.x", "B.x"):
+            results.choose(key)
+            self.take(f"results-diagnosis-{key[0]}")
+        results.tabs.setCurrentIndex(0)
 
     def _measure(self) -> None:
         run, model = self._screen.workspace.run, self._model

@@ -533,6 +533,85 @@
     </message>
 </context>
 <context>
+    <name>DiagnosisView</name>
+    <message>
+        <source>fine</source>
+        <translation>正常</translation>
+    </message>
+    <message>
+        <source>worth a look</source>
+        <translation>值得查看</translation>
+    </message>
+    <message>
+        <source>warning</source>
+        <translation>警告</translation>
+    </message>
+    <message>
+        <source>{symbol}: residuals</source>
+        <translation>{symbol}：残差</translation>
+    </message>
+    <message>
+        <source>bars: two standard errors; ringed: stands apart</source>
+        <translation>误差棒：两倍标准误差；带圈：离群点</translation>
+    </message>
+    <message>
+        <source>{symbol}: both senses</source>
+        <translation>{symbol}：正反两个方向</translation>
+    </message>
+    <message>
+        <source>{symbol}: Allan deviation</source>
+        <translation>{symbol}：阿伦偏差</translation>
+    </message>
+    <message>
+        <source>band: 95 %; line: the noise model of the budget</source>
+        <translation>色带：95 %；曲线：不确定度评定所用噪声模型</translation>
+    </message>
+    <message>
+        <source>{symbol}: the Earth&apos;s rate</source>
+        <translation>{symbol}：地球自转</translation>
+    </message>
+    <message>
+        <source>line: as measured; dashed: expected at this latitude</source>
+        <translation>实线：实测；虚线：当地纬度的预期值</translation>
+    </message>
+    <message>
+        <source>{symbol}: single recordings</source>
+        <translation>{symbol}：各段记录</translation>
+    </message>
+    <message>
+        <source>Earth&apos;s rate taken out; bars: two standard errors of noise</source>
+        <translation>已扣除地球自转；误差棒：噪声的两倍标准误差</translation>
+    </message>
+    <message>
+        <source>This result has no diagnosis: an earlier version made it. Calculate it again to see one.</source>
+        <translation>此结果没有诊断：由较早的版本生成。请重新计算后查看。</translation>
+    </message>
+    <message>
+        <source>Rate</source>
+        <translation>速率</translation>
+    </message>
+    <message>
+        <source>Order</source>
+        <translation>顺序</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>时间</translation>
+    </message>
+    <message>
+        <source>Allan deviation</source>
+        <translation>阿伦偏差</translation>
+    </message>
+    <message>
+        <source>Recordings</source>
+        <translation>各段记录</translation>
+    </message>
+    <message>
+        <source>Earth&apos;s rate</source>
+        <translation>地球自转</translation>
+    </message>
+</context>
+<context>
     <name>EndView</name>
     <message>
         <source>The run is complete</source>
@@ -1889,8 +1968,36 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>转台速率，°/s</translation>
     </message>
     <message>
+        <source>Order of recording</source>
+        <translation>记录顺序</translation>
+    </message>
+    <message>
+        <source>Start after the first rate, min</source>
+        <translation>自第一个速率点起的时间，min</translation>
+    </message>
+    <message>
         <source>Residual, ppm</source>
         <translation>残差，ppm</translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation>记录</translation>
+    </message>
+    <message>
+        <source>Residual, °/h</source>
+        <translation>残差，°/h</translation>
+    </message>
+    <message>
+        <source>Azimuth of the table, °</source>
+        <translation>转台方位，°</translation>
+    </message>
+    <message>
+        <source>Averaging time τ, s</source>
+        <translation>平均时间 τ，s</translation>
+    </message>
+    <message>
+        <source>Allan deviation, °/h</source>
+        <translation>阿伦偏差，°/h</translation>
     </message>
     <message>
         <source>Mean output, {unit}</source>
@@ -2248,6 +2355,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Uncertainty budget</source>
         <translation>不确定度评定</translation>
+    </message>
+    <message>
+        <source>Diagnosis</source>
+        <translation>诊断</translation>
     </message>
     <message>
         <source>Warnings and deviations</source>

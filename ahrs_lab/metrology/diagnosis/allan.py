@@ -127,41 +127,50 @@ def floor_verdict(noise: NoiseModel, duration_s: float) -> FloorVerdict:
 
 
 def allan_finding(found: AllanDiagnosis) -> DiagnosisFinding:
-    """The plain sentence."""
-    white = figures(_DPH * found.white / math.sqrt(found.duration_s))
-    drift = figures(
-        _DPH * math.sqrt(FLICKER_SQUARED * found.flicker_dps**2 + found.walk**2 * found.duration_s / 3.0)
-    )
-    T = f"{found.duration_s:g}"
+    """The plain sentence: where T lies, and whether longer positions would help."""
+    flicker, walk = FLICKER_SQUARED * found.flicker_dps**2, found.walk**2 * found.duration_s / 3.0
+    drift = math.sqrt(flicker + walk)
+    numbers = {
+        "T": f"{found.duration_s:g}",
+        "white": figures(_DPH * found.white / math.sqrt(found.duration_s)),
+        "drift": figures(_DPH * drift),
+    }
     if found.verdict == "short":
         what = Message(
             "Positions of {T} s are too short to tell where the bias-instability floor lies: the standard "
             "takes 1800 s.",
-            T=T,
+            T=numbers["T"],
         )
         return DiagnosisFinding("look", what)
-    if found.verdict == "before":
+    if found.verdict == "before" and drift == 0.0:
+        what = Message(
+            "At T = {T} s white noise ({white} °/h) dominates and no bias instability is seen: doubling T "
+            "would lower it by 1/√2.",
+            T=numbers["T"],
+            white=numbers["white"],
+        )
+    elif found.verdict == "before":
         what = Message(
             "At T = {T} s white noise ({white} °/h) still dominates over the bias instability ({drift} °/h): "
             "doubling T would lower it by 1/√2.",
-            T=T,
-            white=white,
-            drift=drift,
+            **numbers,
         )
     elif found.verdict == "at":
         what = Message(
             "At T = {T} s white noise ({white} °/h) and bias instability ({drift} °/h) are about equal: T is "
             "at the floor, and longer positions would gain little.",
-            T=T,
-            white=white,
-            drift=drift,
+            **numbers,
         )
-    else:
+    elif walk <= flicker:
         what = Message(
             "At T = {T} s white noise ({white} °/h) lies below the bias-instability floor ({drift} °/h): "
             "longer positions would not make B better known.",
-            T=T,
-            white=white,
-            drift=drift,
+            **numbers,
+        )
+    else:
+        what = Message(
+            "At T = {T} s white noise ({white} °/h) lies below the drift ({drift} °/h): T is past the "
+            "bias-instability floor, and longer positions would make B less well known.",
+            **numbers,
         )
     return DiagnosisFinding("fine", what)

@@ -16,6 +16,11 @@ def figures(value: float, digits: int = 2, *, plus: bool = False) -> str:
     return ("−" if value < 0.0 else "+" if plus else "") + text
 
 
+def probability(p: float) -> str:
+    """``0.032``, ``< 0.0001``."""
+    return f"< {_LEAST_P:.4f}" if p < _LEAST_P else figures(p)
+
+
 def chance(p: float) -> str:
     """``p = 0.032``, ``p < 0.0001``."""
-    return f"p < {_LEAST_P:.4f}" if p < _LEAST_P else f"p = {figures(p)}"
+    return f"p {probability(p)}" if p < _LEAST_P else f"p = {probability(p)}"

@@ -7,6 +7,15 @@ import math
 import numpy as np
 
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.diagnosis.model import (
+    AllanDiagnosis,
+    Diagnosis,
+    DiagnosisFinding,
+    MisalignmentDiagnosis,
+    Residuals,
+    ScaleFactorDiagnosis,
+    ZeroOffsetDiagnosis,
+)
 from ahrs_lab.metrology.result import (
     AxisName,
     BudgetRow,
@@ -53,6 +62,40 @@ def sample_result() -> CalibrationResult:
         device={"rate_unit": "deg/s", "name": "AHRS"},
         site={"latitude_deg": LATITUDE_DEG},
         simulated=True,
+        diagnosis=_diagnosis(),
+    )
+
+
+def _diagnosis() -> Diagnosis:
+    """Of X: one finding of each state, and the Allan deviation of white noise over a floor."""
+    scale = _scale("x")
+    residuals = Residuals(
+        scale.segments, tuple(40.0 * n for n in range(10)), scale.residuals, scale.standard_errors,
+        (0.5, -0.4, 6.1, *(0.2,) * 7), 7, 4.8, (2,), 5e-4,
+    )  # fmt: skip
+    moved = Message(
+        "From the rest before to the rest after the rates the zero moved by {drift} {unit}, no more than "
+        "noise explains (u = {standard} {unit}).",
+        drift="−7.2", standard="9.1", unit="°/h",
+    )  # fmt: skip
+    findings = (
+        DiagnosisFinding("fine", moved, 0.43),
+        DiagnosisFinding("look", Message("The residuals show no trend with time."), 0.004),
+        DiagnosisFinding(
+            "warn", Message("None of the {count} rates stands apart.", count=10), 5e-4, "sf_x_-100"
+        ),
+    )
+    taus = tuple(2.0**octave for octave in range(9))
+    deviations = tuple(math.sqrt(1e-6 / tau + 1e-9) for tau in taus)
+    allan = AllanDiagnosis(
+        taus, deviations, tuple(0.9 * v for v in deviations), tuple(1.1 * v for v in deviations),
+        (*taus, 600.0), (*deviations, 5e-5), 1e-3, 5e-5, 0.0, 600.0, 5e-5, "past",
+    )  # fmt: skip
+    order = tuple(range(1, 11))
+    return Diagnosis(
+        {"x": ScaleFactorDiagnosis(RATES, order, 300.7, residuals, None, None, None, findings)},
+        {"x": ZeroOffsetDiagnosis(residuals, None, allan, findings)},
+        {"yx": MisalignmentDiagnosis(1e-3, 0.0, findings)},
     )
 
 

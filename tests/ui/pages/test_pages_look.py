@@ -32,6 +32,13 @@ def scenes(screens: Screens) -> dict[str, Callable[[], None]]:
     def tab(tabs: object, number: int) -> Callable[[], None]:
         return lambda: tabs.setCurrentIndex(number)  # type: ignore[attr-defined]
 
+    def diagnosis(key: str) -> Callable[[], None]:
+        def go() -> None:
+            s.results.choose(key)
+            s.results.tabs.setCurrentIndex(3)
+
+        return go
+
     def show_list() -> None:
         s.window.show_page("jobs")
         s.jobs.show_list()
@@ -55,7 +62,10 @@ def scenes(screens: Screens) -> dict[str, Callable[[], None]]:
         "plot L": job("measured", "results", lambda: s.results.choose("L.zy")),
         "values": job("measured", "results", tab(s.results.tabs, 1)),
         "budget": job("measured", "results", tab(s.results.tabs, 2)),
-        "findings": job("measured", "results", tab(s.results.tabs, 3)),
+        "diagnosis K": job("measured", "results", diagnosis("K.x")),
+        "diagnosis B": job("measured", "results", diagnosis("B.x")),
+        "diagnosis L": job("measured", "results", diagnosis("L.yx")),
+        "findings": job("measured", "results", tab(s.results.tabs, 4)),
         "certificate": job("measured", "certificate"),
         "signed": job("checked", "certificate"),
         "bench": job("ready", "bench"),

@@ -11,6 +11,7 @@ from ahrs_lab.recording.samples import Samples
 from ahrs_lab.ui.page import Page
 from ahrs_lab.ui.pages.desk import Desk
 from ahrs_lab.ui.pages.results.budget_view import BudgetView
+from ahrs_lab.ui.pages.results.diagnosis_view import DiagnosisView
 from ahrs_lab.ui.pages.results.findings_view import FindingsView
 from ahrs_lab.ui.pages.results.plot_view import PlotView
 from ahrs_lab.ui.pages.results.quantities import GROUPS, Group, Quantity, quantities
@@ -102,11 +103,12 @@ class ResultsPage(Page):
         head.addWidget(self.again)
         card.add(head)
         self.plot, self.values = PlotView(), ValuesView()
-        self.budget, self.findings = BudgetView(), FindingsView()
+        self.budget, self.diagnosis, self.findings = BudgetView(), DiagnosisView(), FindingsView()
         self._views = QStackedWidget()
-        for view in (self.plot, self.values, self.budget, self.findings):
+        for view in (self.plot, self.values, self.budget, self.diagnosis, self.findings):
             self._views.addWidget(view)
-        self.plot.segment_wanted.connect(self._open_segment)
+        for source in (self.plot, self.diagnosis):
+            source.segment_wanted.connect(self._open_segment)
         self.tabs.currentChanged.connect(self._views.setCurrentIndex)
         card.add(self._views, 1)
         return card
@@ -183,6 +185,7 @@ class ResultsPage(Page):
             return
         self.plot.show_quantity(quantity, unit, self._result)
         self.budget.show_quantity(quantity, unit)
+        self.diagnosis.show_quantity(quantity, self._result)
 
     def _say_verdict(self) -> None:
         result = self._result
@@ -254,6 +257,7 @@ class ResultsPage(Page):
 
         def opened(samples: Samples) -> None:
             self._set_busy(False)
+            self.tabs.setCurrentIndex(0)
             self.plot.show_segment(name, samples)
 
         self._desk.run(
@@ -300,6 +304,7 @@ class ResultsPage(Page):
             self.tr("Plot"),
             self.tr("Values"),
             self.tr("Uncertainty budget"),
+            self.tr("Diagnosis"),
             self.tr("Warnings and deviations"),
         )
         self.again.setText(self.tr("Calculate again"))

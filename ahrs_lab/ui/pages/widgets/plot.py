@@ -65,7 +65,8 @@ class Plot(QWidget):
     def clear(self, x_label: str, y_label: str) -> None:
         """An empty plot with these axis titles, units included."""
         self._item.clear()
-        self._item.getAxis("bottom").setTicks(None)
+        for side in ("left", "bottom"):
+            self._item.getAxis(side).setTicks(None)
         self._labels = (x_label, y_label)
         self._style()
         self._item.enableAutoRange()
@@ -77,9 +78,9 @@ class Plot(QWidget):
         if y is not None:
             self._item.setYRange(*y, padding=0.0)
 
-    def set_names(self, positions: Sequence[float], names: Sequence[str]) -> None:
-        """Words instead of numbers below the horizontal axis."""
-        self._item.getAxis("bottom").setTicks([list(zip(positions, names, strict=True))])
+    def set_names(self, positions: Sequence[float], names: Sequence[str], side: str = "bottom") -> None:
+        """Words instead of numbers below the horizontal axis, or beside the vertical one (``left``)."""
+        self._item.getAxis(side).setTicks([list(zip(positions, names, strict=True))])
 
     def add_points(
         self, x: Array, y: Array, colour: str, errors: Array | None = None, *, hollow: bool = False
@@ -122,6 +123,28 @@ class Plot(QWidget):
                 movable=False,
                 brush=pg.mkBrush(tint),
                 pen=pg.mkPen(None),
+            )
+        )
+
+    def add_upright(self, x: float, colour: str) -> None:
+        """A dashed vertical line."""
+        pen = pg.mkPen(colour, width=1, style=Qt.PenStyle.DashLine)
+        self._item.addItem(pg.InfiniteLine(pos=x, angle=90, pen=pen))
+
+    def add_area(self, x: Array, low: Array, high: Array, colour: str) -> None:
+        """A tinted area between two curves."""
+        tint = QColor(colour)
+        tint.setAlphaF(0.16)
+        edges = [pg.PlotCurveItem(x=x, y=y, pen=pg.mkPen(None)) for y in (low, high)]
+        for edge in edges:
+            self._item.addItem(edge)
+        self._item.addItem(pg.FillBetweenItem(*edges, brush=pg.mkBrush(tint)))
+
+    def add_rings(self, x: Array, y: Array, colour: str) -> None:
+        """Rings round points that a person is to look at."""
+        self._item.addItem(
+            pg.ScatterPlotItem(
+                x=x, y=y, size=_POINT_PX + 12, pen=pg.mkPen(colour, width=2.0), brush=pg.mkBrush(None)
             )
         )
 

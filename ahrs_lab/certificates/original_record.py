@@ -18,6 +18,7 @@ from ahrs_lab.certificates.content import (
     person_label,
     standards_blocks,
 )
+from ahrs_lab.certificates.diagnosis_section import diagnosis_section
 from ahrs_lab.certificates.documents import (
     Block,
     Column,
@@ -83,6 +84,7 @@ def original_record(
                 *(standards_blocks(job.standards, writer) if job and job.standards else ()),
                 *_measured(result, writer),
                 *_full_results(result, writer),
+                *diagnosis_section(result, language),
                 *_course(result, language),
                 *_plan(result, language),
             ),

@@ -311,6 +311,19 @@ ORDER_RUN = Words("记录次序", "Order of recording")
 REPEATED = Words("重复、弃用或中断的记录段", "Segments repeated, set aside or interrupted")
 NONE_REPEATED = Words("结果中未列出。", "None is listed in the result.")
 WARNINGS = Words("警告", "Warnings")
+DIAGNOSIS = Words("数据诊断", "What the data say about themselves")
+DIAGNOSIS_NOTE = Words(
+    "p：数据正常时出现同样或更大差异的概率；小于 0.01 标为留意，小于 0.001 列为警告。诊断不剔除任何记录。",
+    "p: the chance of so large a difference in good data; below 0.01 it is worth a look, below 0.001 a "
+    "warning. The diagnosis leaves no recording out.",
+)
+FINDING_STATES = {
+    "fine": Words("正常", "fine"),
+    "look": Words("留意", "look"),
+    "warn": Words("警告", "warning"),
+}
+FINDING_STATE = Words("状态", "State")
+FINDING_P = Words("p", "p")
 PLAN = Words("校准方案设置", "Settings of the plan")
 SETTING = Words("设置", "Setting")
 SETTING_VALUE = Words("值", "Value")

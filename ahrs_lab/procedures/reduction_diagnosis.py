@@ -54,13 +54,17 @@ class _Looked:
         self.takes = {take.segment.name: take for take in evidence.selection.takes}
         self._batches: dict[tuple[str, Axis], tuple[Array, float]] = {}
 
-    def used(self, names: Iterable[str]) -> list[Take]:
-        """The takes of a result's segments, in their order."""
-        return [self.takes[name] for name in names]
+    def used(self, item: str, names: Iterable[str]) -> list[Take]:
+        """The takes of a result's segments, in their order; of one name each in turn."""
+        named: dict[str, list[Take]] = {}
+        for take in self.evidence.selection.takes:
+            if take.segment.item == item:
+                named.setdefault(take.segment.name, []).append(take)
+        return [named[name].pop(0) if len(named[name]) > 1 else named[name][0] for name in names]
 
     def batches(self, take: Take, axis: Axis) -> tuple[Array, float]:
         """Means over about a second, the output's unit, and their length, s."""
-        key = (take.segment.name, axis)
+        key = (take.segment.file, axis)
         if key not in self._batches:
             self._batches[key] = axis_batches(take.output, axis)
         return self._batches[key]
@@ -114,7 +118,7 @@ def _warnings(
 
 def _scale_factor(looked: _Looked, result: ScaleFactorResult) -> ScaleFactorDiagnosis:
     axis, evidence = result.axis, looked.evidence
-    used = looked.used(result.segments)
+    used = evidence.selection.of("scale_factor", axis)
     at_rates = [take for take in used if take.segment.role == "rate"]
     rests = [
         [take for take in used if take.segment.role == role] for role in ("static_before", "static_after")
@@ -163,7 +167,7 @@ def _zero_offset(
     misalignments: Mapping[str, MisalignmentResult],
 ) -> ZeroOffsetDiagnosis:
     axis = result.axis
-    used = looked.used(result.segments)
+    used = looked.used("zero_offset", result.segments)
     factor = degrees_factor(used[0].output.unit)
     gain = 1.0
     if factor is None:
@@ -235,7 +239,7 @@ def _harmonic(
 
 def _allan(looked: _Looked, axis: Axis, factor: float, duration_s: float) -> AllanDiagnosis | None:
     """From every position that was recorded: the output of this axis was recorded in all of them."""
-    positions = [take for take in looked.takes.values() if take.segment.item == "zero_offset"]
+    positions = [take for take in looked.evidence.selection.takes if take.segment.item == "zero_offset"]
     batches = [looked.batches(take, axis) for take in positions]
     longest = max(batch_s for _, batch_s in batches)
     dwells = [abs(factor) * means for means, batch_s in batches if batch_s == longest]
@@ -246,7 +250,7 @@ def _allan(looked: _Looked, axis: Axis, factor: float, duration_s: float) -> All
 
 
 def _misalignment(looked: _Looked, result: MisalignmentResult) -> MisalignmentDiagnosis:
-    used = looked.used(result.segments)
+    used = looked.evidence.selection.of("misalignment", result.turned_axis)
     positive = [take for take in used if (take.segment.turns or 0) > 0]
     negative = [take for take in used if (take.segment.turns or 0) < 0]
     return diagnose_misalignment(

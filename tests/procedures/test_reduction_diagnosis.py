@@ -110,3 +110,16 @@ def test_repeated_positions_are_diagnosed_one_by_one() -> None:
     assert residuals is not None
     assert len(residuals.residuals) == 12
     assert residuals.dof == 10
+
+
+def test_segments_of_one_name_are_told_apart() -> None:
+    """Nothing in a bundle says that names differ; only files do."""
+    unit = noisy(8)
+    made = [*unit.rates("x"), *unit.turns("x"), *unit.positions("x")]
+    result = reduce_recording(
+        unit.recording([replace(one, segment=replace(one.segment, name="take")) for one in made])
+    )
+    assert result.diagnosis is not None
+    residuals = result.diagnosis.scale_factor["x"].residuals
+    assert residuals.residuals == pytest.approx(result.scale_factor["x"].residuals)
+    assert len(set(residuals.starts_s)) == 8

@@ -60,6 +60,7 @@ def draft_values(connection: Connection, draft: JobDraft, who: str) -> dict[str,
         "place_en": draft.place_en,
         "plan_toml": draft.plan_toml,
         "bench_toml": draft.bench_toml,
+        "limits_json": draft.limits_json,
         "operator_id": draft.operator_id or None,
         "verifier_id": draft.verifier_id or None,
         "approver_id": draft.approver_id or None,
@@ -146,4 +147,5 @@ def read_job(connection: Connection, row: Row[Any]) -> JobRow:
         revision=row.revision,
         calibrated=row.calibrated,
         issued=row.issued,
+        limits_json=row.limits_json,
     )

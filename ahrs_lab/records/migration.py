@@ -10,12 +10,19 @@ from collections.abc import Callable, Mapping
 from contextlib import closing
 from pathlib import Path
 
-from sqlalchemy import Connection, update
+from sqlalchemy import Connection, text, update
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.records import schema
 
-STEPS: Mapping[int, Callable[[Connection], None]] = {}
+
+def _figures_and_limits(connection: Connection) -> None:
+    """1 to 2: what a standard's certificate states, and the limits of a job."""
+    for table, column in (("standards", "figures_json"), ("jobs", "limits_json")):
+        connection.execute(text(f"ALTER TABLE {table} ADD COLUMN {column} TEXT NOT NULL DEFAULT ''"))
+
+
+STEPS: Mapping[int, Callable[[Connection], None]] = {1: _figures_and_limits}
 """From this version to the next one."""
 
 

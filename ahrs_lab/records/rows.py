@@ -72,7 +72,8 @@ class DeviceRow:
 @dataclass(frozen=True)
 class StandardRow:
     """A measurement standard with its certificate; ``kind`` is table, supply, fixture, room, north or
-    other."""
+    other. ``figures_json``: the figures that the certificate states, a JSON text that the records keep as
+    it is."""
 
     id: int
     kind: str
@@ -86,11 +87,13 @@ class StandardRow:
     certificate_number: str = ""
     due: date | None = None
     traceability: str = ""
+    figures_json: str = ""
 
 
 @dataclass(frozen=True)
 class JobDraft:
-    """What a person enters for a job; 0 for a person not chosen yet."""
+    """What a person enters for a job; 0 for a person not chosen yet. ``limits_json``: the limits to judge
+    its result by, a JSON text that the records keep as it is."""
 
     customer: CustomerRow
     device: DeviceRow
@@ -103,6 +106,7 @@ class JobDraft:
     operator_id: int = 0
     verifier_id: int = 0
     approver_id: int = 0
+    limits_json: str = ""
 
 
 @dataclass(frozen=True)
@@ -129,6 +133,7 @@ class JobRow:
     """Counts the certificates laid out for signing; a job sent back after a signature gets the next one."""
     calibrated: date | None
     issued: date | None
+    limits_json: str = ""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from sqlalchemy import (
     UniqueConstraint,
 )
 
-VERSION = 1
+VERSION = 2
 
 metadata = MetaData()
 
@@ -75,6 +75,8 @@ standards = Table(
             "accuracy_zh",
             "certificate_number",
             "traceability",
+            # The figures that the certificate states; opaque here.
+            "figures_json",
         )
     ),
     Column("due", Date),
@@ -91,7 +93,16 @@ jobs = Table(
     Column("received", Date, nullable=False),
     *(
         _text(name)
-        for name in ("place", "place_en", "plan_toml", "bench_toml", "folder", "certificate_number")
+        for name in (
+            "place",
+            "place_en",
+            "plan_toml",
+            "bench_toml",
+            # The limits that the customer's specification states; opaque here.
+            "limits_json",
+            "folder",
+            "certificate_number",
+        )
     ),
     Column("operator_id", ForeignKey("people.id")),
     Column("verifier_id", ForeignKey("people.id")),

@@ -38,6 +38,7 @@ from ahrs_lab.certificates.result_tables import (
     PER_HOUR,
     ResultWriter,
     budget_table,
+    certificates_of,
     linearity_table,
     methods_of,
     misalignment_table,
@@ -48,6 +49,7 @@ from ahrs_lab.certificates.richtext import RichText, Run, joined, markup, plain,
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import Standard, clause6_violations
+from ahrs_lab.metrology.figures_json import noted_capability, stated_figures
 from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, CalibrationResult, Environment, Uncertainty
 from ahrs_lab.metrology.rounding import format_grouped
 from ahrs_lab.resource_files import resource_path
@@ -69,7 +71,7 @@ def certificate_content(
     """
     if not (result.scale_factor or result.zero_offset or result.misalignment):
         raise InputError("The result holds no scale factor, zero offset or misalignment: nothing to certify")
-    mismatches = _mismatches(result, job)
+    mismatches = mismatches_of(result, job)
     if mismatches and not is_demonstration(result, job):
         raise InputError(mismatches[0])
     writer = ResultWriter(language, job.rounding)
@@ -102,7 +104,8 @@ def is_demonstration(result: CalibrationResult, job: JobSheet) -> bool:
     return job.demonstration or result.simulated
 
 
-def _mismatches(result: CalibrationResult, job: JobSheet) -> tuple[Message, ...]:
+def mismatches_of(result: CalibrationResult, job: JobSheet) -> tuple[Message, ...]:
+    """Where result and job sheet are not of the same device, method or figures of the standards."""
     found: list[Message] = []
     serial = str(result.device.get("serial_number", "")).strip()
     if serial and serial != job.device.serial_number:
@@ -120,6 +123,13 @@ def _mismatches(result: CalibrationResult, job: JobSheet) -> tuple[Message, ...]
                 "The job asks for uncertainty by {wanted}, the result was evaluated by {found}",
                 wanted=job.uncertainty_method,
                 found=", ".join(sorted(methods)),
+            )
+        )
+    if set(stated_figures(noted_capability(result.notes))) != set(stated_figures(job.capability)):
+        found.append(
+            Message(
+                "The result was evaluated with other figures of the standards than the job's certificates "
+                "state: evaluate it again with the job's"
             )
         )
     return tuple(found)
@@ -513,6 +523,7 @@ def _linearity(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, 
 def _budgets(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ...]:
     """One table a kind of quantity: K in 10⁻⁶ of K, B in °/h, L in 10⁻⁶ rad."""
     million = (Run("10"), Run("−6", "sup"))
+    marks = certificates_of(result)
     angles = [key for key in MISALIGNMENT_KEYS if key in result.misalignment]
     blocks: list[Block] = []
     kinds: list[tuple[Words, dict[str, Uncertainty], dict[str, RichText], dict[str, float]]] = [
@@ -537,8 +548,15 @@ def _budgets(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ..
     ]
     for words, uncertainties, names, factors in kinds:
         if uncertainties:
-            blocks += [_budget_heading(words, writer), budget_table(names, uncertainties, factors, writer)]
-    return (*blocks, Paragraph(label(wording.BUDGET_NOTE, writer.language), size=7.0))
+            blocks += [
+                _budget_heading(words, writer),
+                budget_table(names, uncertainties, factors, marks, writer),
+            ]
+    note = [wording.BUDGET_NOTE]
+    if marks:
+        named = "; ".join(f"{mark}^{{)}} {number}" for number, mark in marks.items())
+        note.append(wording.BUDGET_CERTIFICATES.filled(numbers=named))
+    return (*blocks, Paragraph(label(_run_on(note), writer.language), size=7.0))
 
 
 def _budget_heading(kind: Words, writer: ResultWriter) -> Heading:

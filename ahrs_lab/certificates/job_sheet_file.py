@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar, cast
 
 from ahrs_lab.certificates.job_sheet import DeviceUnderTest, JobSheet, Party, Person
+from ahrs_lab.certificates.job_sheet_figures import check_figures, read_figures
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.capability import capability_of
 from ahrs_lab.metrology.conditions import BenchCapability, Standard, StandardKind
 
 FORMAT = "ahrs-lab-job"
@@ -30,18 +32,21 @@ class _Table:
 
     def __init__(self, data: Mapping[str, Any], where: str, path: Path) -> None:
         self._data = dict(data)
-        self._where = where
+        self.where = where
         self._path = path
         self._known: set[str] = set()
 
     def _place(self, key: str) -> str:
-        return f"{self._where}.{key}" if self._where else key
+        return f"{self.where}.{key}" if self.where else key
 
     def _take(self, key: str) -> Any:
         self._known.add(key)
         return self._data.get(key)
 
-    def _missing(self, key: str) -> InputError:
+    def has(self, key: str) -> bool:
+        return key in self._data
+
+    def missing(self, key: str) -> InputError:
         return InputError("{file}: “{key}” is missing; add it", file=self._path.name, key=self._place(key))
 
     def wrong(self, key: str, expected: Message) -> InputError:
@@ -56,7 +61,7 @@ class _Table:
         value = self._take(key)
         if value is None:
             if default is None:
-                raise self._missing(key)
+                raise self.missing(key)
             return default
         return self._checked_text(key, value, empty=empty and default is not None)
 
@@ -85,7 +90,7 @@ class _Table:
         if value is None and not required:
             return None
         if value is None:
-            raise self._missing(key)
+            raise self.missing(key)
         if isinstance(value, datetime) or not isinstance(value, date):
             raise self.wrong(key, Message("a date without quotation marks, as 2026-11-22"))
         return value
@@ -127,7 +132,7 @@ class _Table:
         if value is None and default is not None:
             return default
         if value is None:
-            raise self._missing(key)
+            raise self.missing(key)
         if value not in choices:
             raise self.wrong(key, Message("one of {choices}", choices=", ".join(choices)))
         return cast("_Choice", value)
@@ -137,7 +142,7 @@ class _Table:
         if value is None and not required:
             value = {}
         if value is None:
-            raise self._missing(key)
+            raise self.missing(key)
         if not isinstance(value, dict):
             raise self.wrong(key, Message("a table [{key}]", key=self._place(key)))
         return _Table(value, self._place(key), self._path)
@@ -178,6 +183,8 @@ def read_job_sheet(path: Path) -> JobSheet:
         )
     top.whole("version", VERSION, VERSION, VERSION)
     people = top.table("people")
+    calibrated = cast("date", top.day("calibrated", required=True))
+    standards = tuple(_standard(table, path) for table in top.tables("standard"))
     defaults = JobSheet.__dataclass_fields__
     sheet = JobSheet(
         number=top.text("number"),
@@ -189,12 +196,12 @@ def read_job_sheet(path: Path) -> JobSheet:
         verifier=_person(people.table("verifier")),
         approver=_person(people.table("approver")),
         received=cast("date", top.day("received", required=True)),
-        calibrated=cast("date", top.day("calibrated", required=True)),
+        calibrated=calibrated,
         issued=top.day("issued", required=False),
         place=top.text("place", ""),
         place_en=top.text("place_en", ""),
-        standards=tuple(_standard(table) for table in top.tables("standard")),
-        capability=_capability(top.table("capability", required=False)),
+        standards=standards,
+        capability=_capability(top.table("capability", required=False), standards, calibrated, path),
         procedure=top.text("procedure", str(defaults["procedure"].default), empty=False),
         procedure_en=top.text("procedure_en", str(defaults["procedure_en"].default), empty=False),
         recalibration_months=top.whole("recalibration_months", 24, 1, 120),
@@ -267,7 +274,7 @@ def _device(table: _Table) -> DeviceUnderTest:
     return device
 
 
-def _standard(table: _Table) -> Standard:
+def _standard(table: _Table, path: Path) -> Standard:
     standard = Standard(
         kind=table.choice("kind", _KINDS),
         name=table.text("name"),
@@ -280,12 +287,16 @@ def _standard(table: _Table) -> Standard:
         certificate_number=table.text("certificate_number"),
         due=table.day("due", required=False),
         traceability=table.text("traceability", ""),
+        figures=read_figures(table, path),
     )
     table.finish()
     return standard
 
 
-def _capability(table: _Table) -> BenchCapability:
+def _capability(
+    table: _Table, standards: tuple[Standard, ...], calibrated: date, path: Path
+) -> BenchCapability:
+    """The figures of ``[capability]``, and those of the standards' certificates before them."""
     known = BenchCapability()
     names = [
         name for name in BenchCapability.__dataclass_fields__ if name not in ("rate_relative", "certified")
@@ -300,7 +311,9 @@ def _capability(table: _Table) -> BenchCapability:
                 "certified",
                 Message("names of figures: {choices}", choices=", ".join((*names, "rate_relative"))),
             )
-    return BenchCapability(rate_relative=relative, certified=certified, **values)
+    check_figures(standards, table, path)
+    base = BenchCapability(rate_relative=relative, certified=certified, **values)
+    return capability_of(standards, calibrated, base)
 
 
 def _seal(top: _Table, path: Path) -> Path | None:

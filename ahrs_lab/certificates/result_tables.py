@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from string import ascii_lowercase
 from typing import Literal
 
 from ahrs_lab.certificates import wording
@@ -14,6 +15,7 @@ from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol
 from ahrs_lab.metrology.result import (
     MISALIGNMENT_KEYS,
     AxisName,
+    BudgetRow,
     CalibrationResult,
     MisalignmentResult,
     ScaleFactorResult,
@@ -232,38 +234,31 @@ def budget_table(
     names: Mapping[str, RichText],
     uncertainties: Mapping[str, Uncertainty],
     factor: Mapping[str, float],
+    marks: Mapping[str, str],
     writer: ResultWriter,
 ) -> Table:
     """Contributions of every source to the quantities of one kind, one column each.
 
-    ``factor`` scales a quantity's contribution to the printed unit.
+    ``factor`` scales a quantity's contribution to the printed unit. A source that a certificate states
+    carries that one's mark of ``marks`` (:func:`certificates_of`), an assumption a star.
     """
-    sources: dict[tuple[str, str], tuple[Label, str, bool]] = {}
+    sources: dict[tuple[str, ...], tuple[Label, str]] = {}
     for uncertainty in uncertainties.values():
         for row in uncertainty.rows:
-            name = label(
-                Words(row.source.text("zh"), row.source.text("en")), "en" if writer.language == "en" else "zh"
-            )
-            sources.setdefault(
-                (row.symbol, row.source.template), (name, row.kind, row.origin == "assumption")
-            )
+            sources.setdefault(_source(row), (_source_name(row, marks, writer), row.kind))
     columns = (
         Column(writer.words(wording.SOURCE)),
         Column(writer.words(wording.KIND)),
         *(Column(Label(names[key]), (), "right") for key in uncertainties),
     )
     rows = []
-    for (identity, template), (name, kind, assumed) in sources.items():
+    for source, (name, kind) in sources.items():
         cells = []
         for key, uncertainty in uncertainties.items():
-            parts = [
-                r.contribution
-                for r in uncertainty.rows
-                if (r.symbol, r.source.template) == (identity, template)
-            ]
+            parts = [r.contribution for r in uncertainty.rows if _source(r) == source]
             total = uncertainty.standard * factor[key]
             cells.append(same(contribution(math.hypot(*parts) * factor[key], total) if parts else DASH))
-        rows.append((Label(joined(name.main, " *" if assumed else "")), same(kind), *cells))
+        rows.append((name, same(kind), *cells))
     rows.append(
         (
             writer.words(wording.COMBINED),
@@ -280,6 +275,30 @@ def budget_table(
         )
     )
     return Table(columns, tuple(rows), size=7.5, summary_rows=3)
+
+
+def _source(row: BudgetRow) -> tuple[str, ...]:
+    """Rows of the same source stand in one line; each band of the table's rate is a source of its own."""
+    band = str(row.source.params.get("band", ""))
+    return row.symbol, row.source.template, band, row.origin, row.certificate
+
+
+def _source_name(row: BudgetRow, marks: Mapping[str, str], writer: ResultWriter) -> Label:
+    words = Words(row.source.text("zh"), row.source.text("en"))
+    name = label(words, "en" if writer.language == "en" else "zh").main
+    if row.origin == "assumption":
+        return Label(joined(name, " *"))
+    mark = marks.get(row.certificate, "")
+    return Label(joined(name, (Run(f" {mark})", "sup"),))) if mark else Label(name)
+
+
+def certificates_of(result: CalibrationResult) -> dict[str, str]:
+    """The certificates that state figures of the budgets, each with the letter that marks its rows."""
+    budgets = [one.uncertainty for one in result.scale_factor.values()]
+    budgets += [one.uncertainty for one in result.zero_offset.values()]
+    budgets += [one.uncertainty for one in result.misalignment.values()]
+    numbers = dict.fromkeys(row.certificate for one in budgets for row in one.rows if row.certificate)
+    return dict(zip(numbers, ascii_lowercase, strict=False))
 
 
 def methods_of(result: CalibrationResult) -> set[str]:

@@ -257,6 +257,9 @@ BUDGET_NOTE = Words(
     "evaluation. "
     "* assumed, not supported by a certificate.",
 )
+BUDGET_CERTIFICATES = Words(
+    "由标准器证书给出：{numbers}。", "Stated by the standards' certificates: {numbers}."
+)
 
 # Original record (原始记录) and plots
 RECORD_TITLE = Words("校准原始记录", "ORIGINAL RECORD OF CALIBRATION")

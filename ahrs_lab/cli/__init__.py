@@ -143,6 +143,9 @@ def _evaluation_options(parser: argparse.ArgumentParser) -> None:
         help="Ω: the demanded rates, or the table's angle over time",
     )
     parser.add_argument("--uncertainty", choices=("gum", "annex-a"), default="gum")
+    parser.add_argument(
+        "--job", type=Path, metavar="JOB.toml", help="job sheet whose standards' figures the budgets take"
+    )
 
 
 def _one_line(text: str) -> str:

@@ -11,6 +11,7 @@ from ahrs_lab.cli.progress import ProgressLine
 from ahrs_lab.cli.stop_signals import stop_signals
 from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle, read_result, write_files
+from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.metrology.result_json import to_json
 
@@ -76,6 +77,7 @@ def _run(arguments: argparse.Namespace) -> int:
     from ahrs_lab.procedures.plan import load_plan
 
     plan = load_plan(arguments.plan)
+    capability = _capability(arguments)
     bench = load_bench(arguments.bench, speed=arguments.speed)
     try:
         with stop_signals(), ProgressLine(sys.stderr) as progress:
@@ -85,6 +87,7 @@ def _run(arguments: argparse.Namespace) -> int:
                 arguments.out,
                 on_event=progress.event,
                 settings=_settings(arguments),
+                capability=capability,
                 again_from=arguments.again_from,
                 reason=arguments.reason,
             )
@@ -100,8 +103,17 @@ def _settings(arguments: argparse.Namespace) -> EvaluationSettings:
     return EvaluationSettings(rates=arguments.rates, uncertainty=arguments.uncertainty)
 
 
+def _capability(arguments: argparse.Namespace) -> BenchCapability | None:
+    """The bench's figures as the job sheet has them, or None where there is no sheet."""
+    if arguments.job is None:
+        return None
+    from ahrs_lab.certificates.job_sheet import load_job_sheet
+
+    return load_job_sheet(arguments.job).capability
+
+
 def _evaluate(arguments: argparse.Namespace) -> int:
-    result = evaluate_bundle(arguments.bundle, _settings(arguments))
+    result = evaluate_bundle(arguments.bundle, _settings(arguments), _capability(arguments))
     text = summary(result)
     if arguments.out is not None:
         files = write_files(result, arguments.out)

@@ -17,7 +17,9 @@ from ahrs_lab.laboratory import certification
 from ahrs_lab.laboratory.benches import bench_presets, plan_presets
 from ahrs_lab.laboratory.evaluation import OutputFolder, write_files
 from ahrs_lab.laboratory.headless import wait_for
+from ahrs_lab.metrology.figures_json import figures_text
 from ahrs_lab.metrology.result import CalibrationResult
+from ahrs_lab.metrology.stated_figures import StatedFigure
 from ahrs_lab.recording.folder_lock import FolderLock
 from ahrs_lab.records.rows import (
     CustomerRow,
@@ -128,6 +130,16 @@ def _standards(today: date) -> tuple[StandardRow, ...]:
             accuracy="U_rel = 2×10^{−4}, (10–1000) °/s, k = 2; U = 10″, k = 2",
             accuracy_zh="U_rel = 2×10^{−4}，(10～1000) °/s，k = 2；U = 10″，k = 2",
             certificate_number="DEMO-26-0815",
+            figures_json=figures_text(
+                (
+                    StatedFigure("rate_relative_below_1", 2e-2, "1", 2.0),
+                    StatedFigure("rate_relative_1_to_10", 2e-3, "1", 2.0),
+                    StatedFigure("rate_relative_from_10", 2e-4, "1", 2.0),
+                    StatedFigure("position_arcsec", 10.0, "arcsec", 2.0),
+                    StatedFigure("wobble_arcsec", 2.0, "arcsec", 2.0),
+                    StatedFigure("axis_tilt_arcsec", 10.0, "arcsec", 2.0),
+                )
+            ),
         ),
         StandardRow(
             0,
@@ -150,6 +162,9 @@ def _standards(today: date) -> tuple[StandardRow, ...]:
             accuracy="perpendicularity < 5″",
             accuracy_zh="垂直度 < 5″",
             certificate_number="DEMO-26-0821",
+            figures_json=figures_text(
+                (StatedFigure("fixture_perpendicularity_arcsec", 5.0, "arcsec", distribution="rectangular"),)
+            ),
         ),
         StandardRow(
             0,

@@ -29,7 +29,10 @@ class EvaluationSettings:
 def evaluate_bundle(
     bundle: Path, settings: EvaluationSettings | None = None, capability: BenchCapability | None = None
 ) -> CalibrationResult:
-    """Read ``bundle`` (folder or ``.ahrsrec``) with all its checks and reduce it."""
+    """Read ``bundle`` (folder or ``.ahrsrec``) with all its checks and reduce it.
+
+    ``capability``: the bench's figures; None: those that the recording names, else clause 6's own.
+    """
     from ahrs_lab.procedures.reduction import reduce_recording
     from ahrs_lab.recording.read import read_bundle
 
@@ -38,7 +41,7 @@ def evaluate_bundle(
         read_bundle(bundle),
         rates=settings.rates,
         uncertainty=settings.uncertainty,
-        capability=capability or BenchCapability(),
+        capability=capability,
         software=SOFTWARE,
     )
 

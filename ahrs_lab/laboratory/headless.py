@@ -63,7 +63,7 @@ def run_plan(
     """
     check_plan(plan, bench.table.limits)
     bundle = out / "recording"
-    header = recording_header(bench, plan)
+    header = recording_header(bench, plan, capability=capability)
     run = LiveRun(bench, plan, bundle, header, on_event=on_event, on_samples=_unheard, ask=False)
     if again_from:
         run.start_from(again_from, reason)

@@ -8,7 +8,9 @@ from typing import cast
 from ahrs_lab.certificates.job_sheet import DeviceUnderTest, JobSheet, Party, Person
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.capability import capability_of, figure_conflicts
 from ahrs_lab.metrology.conditions import BenchCapability, Standard, StandardKind, clause6_violations
+from ahrs_lab.metrology.figures_json import figures_from_text
 from ahrs_lab.metrology.result import CalibrationResult, Method
 from ahrs_lab.records.rows import JobRow, LaboratoryRow, PersonRow, StandardRow
 
@@ -31,24 +33,39 @@ def _standard(row: StandardRow) -> Standard:
         certificate_number=row.certificate_number,
         due=row.due,
         traceability=row.traceability,
+        figures=figures_from_text(row.figures_json, row.name),
     )
 
 
-def capability() -> BenchCapability:
-    """The bench's figures for the budget: clause 6's own, as assumptions.
+def check_standard(row: StandardRow) -> None:
+    """Raises InputError where the figures of a standard cannot be used: they are none, another kind of
+    standard states such, or the certificate they stand in is not named."""
+    standard = _standard(row)
+    for message in figure_conflicts([standard]):
+        raise InputError(message)
+    if standard.figures and not (standard.certificate_number.strip() and standard.due):
+        raise InputError(
+            "{name} states figures: enter the number and the due date of the certificate that they stand in.",
+            name=row.name,
+        )
 
-    The figures that the standards' certificates state are not entered, so none may be called certified.
-    """
-    return BenchCapability()
+
+def capability(job: JobRow) -> BenchCapability:
+    """The bench's figures for the job's budgets: as its standards' certificates state them on the day it is
+    measured, else clause 6's own as assumptions. Raises InputError where two standards state the same."""
+    return capability_of(standards_of(job), job.calibrated or date.today())  # noqa: DTZ011
 
 
 def violations(job: JobRow, result: CalibrationResult | None) -> tuple[Message, ...]:
-    """What violates clause 6: standards missing or overdue, and, once measured, the room."""
-    return clause6_violations(
-        standards_of(job),
+    """What violates clause 6: standards missing or overdue, a bench that is worse, and, once measured, the
+    room; before them figures that cannot be used together."""
+    standards = standards_of(job)
+    conflicts = figure_conflicts(standards)
+    return conflicts + clause6_violations(
+        standards,
         on_date=job.calibrated or date.today(),  # noqa: DTZ011  due dates are the laboratory's own
         environment=result.environment if result is not None else None,
-        capability=capability(),
+        capability=None if conflicts else capability(job),
     )
 
 
@@ -99,7 +116,7 @@ def job_sheet(
         place=job.place,
         place_en=job.place_en,
         standards=standards_of(job),
-        capability=capability(),
+        capability=capability(job),
         uncertainty_method=method,
         accepted_violations=accepted_violations,
         demonstration=result.simulated,

@@ -114,7 +114,8 @@ class Laboratory:
         return self.records.registry.standards()
 
     def save_standard(self, row: StandardRow, actor: SignedIn) -> StandardRow:
-        """Add or change one."""
+        """Add or change one; its figures have to be such as its certificate can state."""
+        job_sheets.check_standard(row)
         return self.records.registry.save_standard(row, actor)
 
     def plan_presets(self) -> dict[str, str]:
@@ -214,7 +215,8 @@ class Laboratory:
 
     def recalculate(self, number: str, settings: EvaluationSettings, actor: SignedIn) -> CalibrationResult:
         """Reduce the job's recording again; the result becomes the current one, earlier ones stay."""
-        result = evaluate_bundle(self.bundle(number), settings, job_sheets.capability())
+        capability = job_sheets.capability(self.job(number))
+        result = evaluate_bundle(self.bundle(number), settings, capability)
         self.records.jobs.add_result(
             number, json.dumps(to_json(result), ensure_ascii=False, allow_nan=False), actor
         )

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ahrs_lab.errors import InputError, PermissionDeniedError
+from ahrs_lab.laboratory import job_sheets
 from ahrs_lab.laboratory.header import recording_header
 from ahrs_lab.laboratory.live_run import LiveRun
 from ahrs_lab.procedures.events import Event
@@ -33,11 +34,13 @@ def make_run(
 ) -> LiveRun:
     """The run of job ``number``, not started yet; the job is ``running`` from here.
 
-    A bench that violates clause 6 needs ``violations_reason`` from a ``second_person``. Raises InputError or
-    PermissionDeniedError; nothing has moved then.
+    The figures of the job's standards go into the recording. A bench that violates clause 6 needs
+    ``violations_reason`` from a ``second_person``. Raises InputError or PermissionDeniedError; nothing has
+    moved then.
     """
     records = laboratory.records
     job, person = _permitted(laboratory, number, actor)
+    capability = job_sheets.capability(job)
     accepted = _accepted(laboratory, job, actor, violations_reason, second_person)
     plan = laboratory.plan(number)
     bench = laboratory.bench(number, speed)
@@ -46,6 +49,7 @@ def make_run(
         bench,
         plan,
         device=_device(job, bench.ahrs.description),
+        capability=capability,
         job=number,
         operator=person.name,
         accepted_violations=accepted,

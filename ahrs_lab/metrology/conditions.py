@@ -14,6 +14,8 @@ from typing import Literal
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.result import Environment, Origin
+from ahrs_lab.metrology.stated_figures import StatedFigure
+from ahrs_lab.metrology.uncertainty.bench_figure import BenchFigure
 
 ARCSEC = math.radians(1.0 / 3600.0)
 """One second of arc, rad."""
@@ -39,7 +41,8 @@ StandardKind = Literal["table", "supply", "fixture", "room", "north", "other"]
 
 @dataclass(frozen=True)
 class Standard:
-    """A measurement standard or auxiliary instrument with its own certificate (clause 6, clause 8 h)."""
+    """A measurement standard or auxiliary instrument with its own certificate (clause 6, clause 8 h), and
+    the figures that the certificate states."""
 
     kind: StandardKind
     name: str
@@ -52,6 +55,7 @@ class Standard:
     certificate_number: str
     due: date | None
     traceability: str = ""
+    figures: tuple[StatedFigure, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -76,9 +80,15 @@ class BenchCapability:
     certified: tuple[str, ...] = ()
     """Names of the fields above that a certificate of the standards states; the rest are assumptions."""
 
-    def origin(self, name: str) -> Origin:
-        """Where the figure ``name`` comes from."""
-        return "certificate" if name in self.certified else "assumption"
+    def origin(self, name: str, band: int = 0) -> Origin:
+        """Where the figure ``name`` comes from; ``band`` of ``rate_relative``."""
+        return self.figure(name, band).origin
+
+    def figure(self, name: str, band: int = 0) -> BenchFigure:
+        """The figure ``name`` as a budget takes it, in the unit of its name; ``band`` of
+        ``rate_relative``."""
+        expanded = self.rate_relative[band] if name == "rate_relative" else getattr(self, name)
+        return BenchFigure(expanded, origin="certificate" if name in self.certified else "assumption")
 
 
 @dataclass(frozen=True)
@@ -180,6 +190,9 @@ def _room(environment: Environment, limits: RoomLimits) -> list[Message]:
 
 
 def _bench(capability: BenchCapability) -> list[Message]:
+    rates = [capability.figure("rate_relative", band).claimed for band in range(len(RATE_BAND_NAMES))]
+    position = capability.figure("position_arcsec").claimed
+    perpendicularity = capability.figure("fixture_perpendicularity_arcsec").claimed
     found = [
         Message(
             "The table's rate is known to {has} (k = 2) for {band}; clause 6.1 asks for {needed}.",
@@ -187,25 +200,28 @@ def _bench(capability: BenchCapability) -> list[Message]:
             band=band,
             needed=f"{needed:.1e}",
         )
-        for has, needed, band in zip(
-            capability.rate_relative, CLAUSE_6_RATE_RELATIVE, RATE_BAND_NAMES, strict=True
-        )
-        if has > needed
+        for has, needed, band in zip(rates, CLAUSE_6_RATE_RELATIVE, RATE_BAND_NAMES, strict=True)
+        if _worse(has, needed)
     ]
-    if capability.position_arcsec > CLAUSE_6_POSITION_ARCSEC:
+    if _worse(position, CLAUSE_6_POSITION_ARCSEC):
         found.append(
             Message(
                 "The table's position is known to {has}″ (k = 2); clause 6.1 asks for {needed}″.",
-                has=capability.position_arcsec,
+                has=round(position, 2),
                 needed=CLAUSE_6_POSITION_ARCSEC,
             )
         )
-    if capability.fixture_perpendicularity_arcsec > CLAUSE_6_PERPENDICULARITY_ARCSEC:
+    if _worse(perpendicularity, CLAUSE_6_PERPENDICULARITY_ARCSEC):
         found.append(
             Message(
                 "The fixture's faces are perpendicular to {has}″; clause 6.2.2 asks for {needed}″.",
-                has=capability.fixture_perpendicularity_arcsec,
+                has=round(perpendicularity, 2),
                 needed=CLAUSE_6_PERPENDICULARITY_ARCSEC,
             )
         )
     return found
+
+
+def _worse(has: float, needed: float) -> bool:
+    """Beyond what rounding of a unit or of k does."""
+    return has > needed * (1.0 + 1e-9)

@@ -28,7 +28,8 @@ class BudgetRow:
 
     ``standard_uncertainty`` is u(x) in the source's own ``unit``; ``contribution`` = |sensitivity|·u(x) in
     the quantity's unit; ``dof`` may be infinite. Rows whose uncertainty is one and the same estimate carry
-    its name in ``shared``: their degrees of freedom count once.
+    its name in ``shared``: their degrees of freedom count once. ``certificate``: the number of the standard's
+    certificate that states the figure, where ``origin`` is one.
     """
 
     symbol: str
@@ -45,6 +46,7 @@ class BudgetRow:
     estimate: float | None = None
     half_width: float | None = None
     shared: str = ""
+    certificate: str = ""
 
 
 @dataclass(frozen=True)

@@ -122,6 +122,7 @@ def _row(row: BudgetRow) -> dict[str, Any]:
         "estimate": row.estimate,
         "half_width": row.half_width,
         "shared": row.shared,
+        "certificate": row.certificate,
     }
 
 
@@ -141,6 +142,7 @@ def _read_row(reader: JsonReader) -> BudgetRow:
         estimate=reader.optional_number("estimate"),
         half_width=reader.optional_number("half_width"),
         shared=reader.text("shared") if reader.has("shared") else "",
+        certificate=reader.text("certificate") if reader.has("certificate") else "",
     )
 
 

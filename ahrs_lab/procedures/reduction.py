@@ -12,6 +12,7 @@ import ahrs_lab
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import BenchCapability
+from ahrs_lab.metrology.figures_json import noted_capability, with_capability
 from ahrs_lab.metrology.json_reader import message_from_json
 from ahrs_lab.metrology.result import (
     CalibrationResult,
@@ -42,13 +43,14 @@ def reduce_recording(
     """K, B and L with their uncertainties, of whatever the recording holds (JJF 1536 7.1 to 7.3).
 
     ``rates``: Ω as demanded, or as the table measured it (angle turned over time). ``capability``: the
-    bench's figures for the type B terms, by default the assumptions of :class:`BenchCapability`. The last
-    take of a segment counts. Raises InputError, with file and line, where a recorded segment does not reach
-    the standard's minimum or nothing can be evaluated; a quantity that lacks segments is left out and named
-    in the warnings.
+    bench's figures for the type B terms, by default those that the recording names, else the assumptions of
+    :class:`BenchCapability`; the result's notes say which. The last take of a segment counts. Raises
+    InputError, with file and line, where a recorded segment does not reach the standard's minimum or nothing
+    can be evaluated; a quantity that lacks segments is left out and named in the warnings.
     """
+    figures = capability or noted_capability(recording.header.notes) or BenchCapability()
     with np.errstate(over="ignore", invalid="ignore"):
-        result = _reduce(recording, rates, uncertainty, capability or BenchCapability(), software)
+        result = _reduce(recording, rates, uncertainty, figures, software)
     _check_finite(result)
     return result
 
@@ -98,7 +100,7 @@ def _reduce(
         environment=_environment(header.notes),
         device=_device(header),
         site=_site(header),
-        notes={**header.notes, **_set_aside(recording)},
+        notes=with_capability({**header.notes, **_set_aside(recording)}, capability),
         simulated=header.notes.get("simulated") is True,
         diagnosis=diagnosis,
     )

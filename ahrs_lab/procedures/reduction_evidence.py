@@ -80,11 +80,13 @@ class Evidence:
             bits, origin = self.capability.acquisition_bits, self.capability.origin("acquisition_bits")
         elif bits is None:
             bits, origin = ANNEX_A_BITS, "assumption"
+        table = self.capability.figure("rate_relative", rate_band(rate_dps))
         return annex_a_uncertainty(
             value,
             unit,
-            table_expanded=self.capability.rate_relative[rate_band(rate_dps)],
-            table_origin=self.capability.origin("rate_relative"),
+            table_expanded=table.double,
+            table_origin=table.origin,
+            table_certificate=table.certificate,
             bits=bits,
             bits_origin=origin,
             repeatability=repeatability,

@@ -384,6 +384,10 @@
         <translation>记录数据</translation>
     </message>
     <message>
+        <source>certificate {number}</source>
+        <translation>证书 {number}</translation>
+    </message>
+    <message>
         <source>a certificate</source>
         <translation>证书</translation>
     </message>
@@ -706,6 +710,57 @@
     <message>
         <source>{tilt}° off level, still</source>
         <translation>水平偏差 {tilt}°，静止</translation>
+    </message>
+</context>
+<context>
+    <name>FiguresForm</name>
+    <message>
+        <source>{figure}: write numbers as 10, 0.0002 or 2E-4.</source>
+        <translation>{figure}：请按 10、0.0002 或 2E-4 的形式填写数值。</translation>
+    </message>
+    <message>
+        <source>Figures that the certificate states</source>
+        <translation>证书给出的数据</translation>
+    </message>
+    <message>
+        <source>They go into the uncertainty budgets; what stays empty there is clause 6&apos;s own figure, marked as an assumption.</source>
+        <translation>用于测量不确定度评定；留空的项采用规范第 6 章的数值，并标为假定值。</translation>
+    </message>
+    <message>
+        <source>Figure</source>
+        <translation>数据</translation>
+    </message>
+    <message>
+        <source>U or limit</source>
+        <translation>U 或极限</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>单位</translation>
+    </message>
+    <message>
+        <source>Stated as</source>
+        <translation>给出方式</translation>
+    </message>
+    <message>
+        <source>Degrees of freedom, where the certificate states them</source>
+        <translation>自由度（证书给出时填写）</translation>
+    </message>
+    <message>
+        <source>U with k</source>
+        <translation>U 和 k</translation>
+    </message>
+    <message>
+        <source>± limit, rectangular</source>
+        <translation>± 极限，矩形分布</translation>
+    </message>
+    <message>
+        <source>± limit, triangular</source>
+        <translation>± 极限，三角分布</translation>
+    </message>
+    <message>
+        <source>± limit, arcsine</source>
+        <translation>± 极限，反正弦分布</translation>
     </message>
 </context>
 <context>

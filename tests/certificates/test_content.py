@@ -17,11 +17,14 @@ from ahrs_lab.certificates.certificate import certificate_pdf
 from ahrs_lab.certificates.content import certificate_content
 from ahrs_lab.certificates.documents import Table
 from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet
-from ahrs_lab.certificates.result_tables import ResultWriter, significant
+from ahrs_lab.certificates.result_tables import ResultWriter, certificates_of, significant
 from ahrs_lab.certificates.richtext import number_of, text_of
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.capability import capability_of
+from ahrs_lab.metrology.figures_json import with_capability
 from ahrs_lab.metrology.result import CalibrationResult, Environment, Uncertainty
+from ahrs_lab.metrology.stated_figures import StatedFigure
 from tests.certificates.conftest import BUNDLE_SHA256, U_B, U_K, U_L, B, K, L
 from tests.certificates.pdf_text import lines, whole_text
 
@@ -384,3 +387,43 @@ def test_counts_need_no_hint_how_to_divide(result: CalibrationResult, job: JobSh
         return sum("as delivered" in text for text in texts)
 
     assert (hints("deg/s"), hints("rad/s"), hints("LSB")) == (1, 1, 0)
+
+
+def certified(result: CalibrationResult, numbers: Mapping[str, str]) -> CalibrationResult:
+    """The same result with the first rows of its K stated by certificates, axis → number."""
+    changed = {}
+    for axis, found in result.scale_factor.items():
+        first, *rest = found.uncertainty.rows
+        row = replace(first, origin="certificate", certificate=numbers[axis]) if axis in numbers else first
+        changed[axis] = replace(found, uncertainty=replace(found.uncertainty, rows=(row, *rest)))
+    return replace(result, scale_factor=changed)
+
+
+def test_a_budgets_line_says_which_certificate_states_it(result: CalibrationResult, job: JobSheet) -> None:
+    with_numbers = certified(result, {"x": "GFJGJL-1", "y": "GFJGJL-2"})
+    assert certificates_of(with_numbers) == {"GFJGJL-1": "a", "GFJGJL-2": "b"}
+    content = certificate_content(with_numbers, job, "en")
+    names = [
+        text_of(row[0].main) for block in content.pages[1] if isinstance(block, Table) for row in block.rows
+    ]
+    source = result.scale_factor["x"].uncertainty.rows[0].source.text()
+    assert f"{source} a)" in names
+    assert f"{source} b)" in names
+    assert not any(name.startswith(source) and name.endswith("*") for name in names)
+    note = text_of(content.pages[1][-1].text.main)  # type: ignore[union-attr]
+    assert "a) GFJGJL-1; b) GFJGJL-2" in note
+
+
+def test_a_result_of_other_figures_than_the_jobs_is_not_certified(
+    result: CalibrationResult, job: JobSheet
+) -> None:
+    stated = replace(job.standards[0], figures=(StatedFigure("wobble_arcsec", 1.0, "arcsec", 2.0),))
+    standards = (stated, *job.standards[1:])
+    capability = capability_of(standards, job.calibrated)
+    other = replace(job, standards=standards, capability=capability)
+    with pytest.raises(InputError, match="evaluated with other figures of the standards"):
+        certificate_content(result, other)
+    same = replace(result, notes=with_capability(result.notes, capability))
+    certificate_content(same, other)
+    with pytest.raises(InputError, match="evaluated with other figures of the standards"):
+        certificate_content(same, job)

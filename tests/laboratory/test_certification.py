@@ -6,14 +6,18 @@ import shutil
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from ahrs_lab.certificates.content import mismatches_of
 from ahrs_lab.cli import main
 from ahrs_lab.errors import InputError, MachineError, PermissionDeniedError
+from ahrs_lab.laboratory import job_sheets
 from ahrs_lab.laboratory.demonstration import APPROVER, OPERATOR, PASSWORD, VERIFIER
-from ahrs_lab.laboratory.evaluation import EvaluationSettings
+from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle
 from ahrs_lab.laboratory.laboratory import Laboratory
+from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.records.rows import JobDraft, PersonRow, SignedIn, SigningRole
 from tests.laboratory.short_run import PLAN
 
@@ -235,12 +239,97 @@ def test_the_command_line_does_not_call_a_half_signed_certificate_good(desk: Des
     assert main(["verify", str(file), "--trust", str(root)]) == 1
 
 
-def test_a_figure_that_nobody_read_from_a_certificate_is_not_called_certified(desk: Desk) -> None:
-    result = desk.laboratory.result(desk.number)
+def rows_of(result: CalibrationResult | None) -> dict[str, tuple[str, str]]:
+    """Symbol → origin and certificate of the bench's rows."""
     assert result is not None
     stated = [
         *(found.uncertainty for found in result.scale_factor.values()),
         *(found.uncertainty for found in result.zero_offset.values()),
         *(found.uncertainty for found in result.misalignment.values()),
     ]
-    assert {row.origin for uncertainty in stated for row in uncertainty.rows} == {"data", "assumption"}
+    return {
+        row.symbol: (row.origin, row.certificate) for one in stated for row in one.rows if row.kind == "B"
+    }
+
+
+def test_rows_say_which_certificate_states_them_and_the_rest_are_assumptions(desk: Desk) -> None:
+    rows = rows_of(desk.laboratory.result(desk.number))
+    assert rows["Ω"] == ("certificate", "DEMO-26-0815")
+    assert rows["ε"] == ("assumption", "")  # of its three figures the level is in no certificate
+    assert rows["q"] == ("data", "")
+
+
+def test_the_recording_alone_evaluates_to_the_same_object(desk: Desk) -> None:
+    bundle = desk.laboratory.bundle(desk.number)
+    assert evaluate_bundle(bundle) == desk.laboratory.result(desk.number)
+
+
+def test_next_years_figures_are_not_those_of_a_measured_job(desk: Desk) -> None:
+    before = desk.laboratory.result(desk.number)
+    table = desk.laboratory.standards()[0]
+    renewed = replace(table, figures_json="", certificate_number="DEMO-27-0001")
+    desk.laboratory.save_standard(renewed, desk.person("operator"))
+    desk.laboratory.recalculate(desk.number, EvaluationSettings(), desk.person("operator"))
+    assert desk.laboratory.result(desk.number) == before
+
+
+def test_figures_that_the_job_no_longer_names_are_said_until_it_is_evaluated_again(desk: Desk) -> None:
+    said = "evaluated with other figures of the standards"
+    laboratory, actor = desk.laboratory, desk.person("operator")
+    job = laboratory.job(desk.number)
+    ids = [person.id if person else 0 for person in (job.operator, job.verifier, job.approver)]
+    others = tuple(row.id for row in job.standards if row.kind != "table")
+    draft = JobDraft(job.customer, job.device, job.received, job.place, job.place_en, job.plan_toml,
+                     job.bench_toml, others, ids[0], ids[1], ids[2])  # fmt: skip
+
+    def remarks() -> list[str]:
+        result = laboratory.result(desk.number)
+        assert result is not None
+        sheet = job_sheets.job_sheet(laboratory.job(desk.number), laboratory.profile(), result, issued=None)
+        return [message.text() for message in mismatches_of(result, sheet) if said in message.text()]
+
+    assert not remarks()
+    laboratory.update_job(desk.number, draft, actor)
+    assert remarks()
+    laboratory.recalculate(desk.number, EvaluationSettings(), actor)
+    assert not remarks()
+    assert rows_of(laboratory.result(desk.number))["Ω"] == ("assumption", "")
+
+
+def test_two_standards_that_state_the_same_stop_the_job_before_it_runs(desk: Desk) -> None:
+    laboratory, actor = desk.laboratory, desk.person("operator")
+    other = replace(laboratory.standards()[0], id=0, serial_number="T-0008")
+    laboratory.save_standard(other, actor)
+    number = laboratory.jobs()[1].number
+    job = laboratory.job(number)
+    ids = [person.id if person else 0 for person in (job.operator, job.verifier, job.approver)]
+    draft = JobDraft(job.customer, job.device, job.received, job.place, job.place_en, job.plan_toml,
+                     job.bench_toml, tuple(row.id for row in laboratory.standards()), ids[0], ids[1],
+                     ids[2])  # fmt: skip
+    laboratory.update_job(number, draft, actor)
+    assert "both state the figure" in laboratory.clause6(number)[0].text()
+    with pytest.raises(InputError, match=r"s/n T-0007 and .* s/n T-0008 both state the figure"):
+        laboratory.start_run(number, actor, on_event=lambda _e: None, on_samples=lambda _s: None,
+                             violations_reason="we know", second_person=desk.person("verifier"))  # fmt: skip
+    assert laboratory.job(number).state == "draft"
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"due": None}, "enter the number and the due date"),
+        ({"certificate_number": " "}, "enter the number and the due date"),
+        ({"kind": "supply"}, "cannot state the figure"),
+        (
+            {"figures_json": '[{"figure": "position_arcsec", "value": 1, "unit": "arcsec"}]'},
+            "no coverage factor",
+        ),
+    ],
+)
+def test_a_standard_whose_figures_cannot_be_used_is_not_saved(
+    desk: Desk, changes: dict[str, Any], said: str
+) -> None:
+    table = desk.laboratory.standards()[0]
+    with pytest.raises(InputError, match=said):
+        desk.laboratory.save_standard(replace(table, **changes), desk.person("operator"))
+    assert desk.laboratory.standards()[0] == table

@@ -29,12 +29,14 @@ def annex_a_uncertainty(
     bits: float,
     bits_origin: Origin,
     repeatability: Sequence[float],
+    table_certificate: str = "",
 ) -> Uncertainty:
     """u_c and U = 2·u_c in the unit of ``value``.
 
-    ``table_expanded`` (k = 2) is relative, ``bits`` is the N of (A.3); ``repeatability`` holds absolute
-    standard uncertainties that are added linearly: one for K, one for each position for B, one for each
-    sense for L. For the printed examples, where everything is relative, ``value`` is 1.
+    ``table_expanded`` (k = 2) is relative, ``table_certificate`` the number of the certificate that states
+    it; ``bits`` is the N of (A.3); ``repeatability`` holds absolute standard uncertainties that are added
+    linearly: one for K, one for each position for B, one for each sense for L. For the printed examples,
+    where everything is relative, ``value`` is 1.
     """
     scale = abs(value)
     table = table_expanded / COVERAGE_FACTOR
@@ -54,6 +56,7 @@ def annex_a_uncertainty(
             dof=math.inf,
             origin=table_origin,
             half_width=table_expanded,
+            certificate=table_certificate,
         ),
         BudgetRow(
             symbol="u₂",

@@ -11,7 +11,8 @@ import numpy as np
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
-from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
+from ahrs_lab.metrology.uncertainty.bench_figure import from_figure
+from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_variance
 
 
@@ -118,8 +119,7 @@ def _axis_rows(evidence: MisalignmentEvidence, L: float, capability: BenchCapabi
     turned = math.radians(360.0 * evidence.turns)
 
     def row(symbol: str, source: Message, name: str, sensitivity: float) -> BudgetRow:
-        expanded = getattr(capability, name) * ARCSEC
-        return from_expanded(symbol, source, "rad", expanded, sensitivity, capability.origin(name))
+        return from_figure(symbol, source, "rad", capability.figure(name).times(ARCSEC), sensitivity)
 
     return [
         row("w", Message("Wobble of the table's axis"), "wobble_arcsec", 1.0),

@@ -18,7 +18,8 @@ from ahrs_lab.metrology.conditions import (
 )
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.scale_factor import ScaleFactorFit
-from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
+from ahrs_lab.metrology.uncertainty.bench_figure import from_figure, root_sum
+from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_variance
 
 Array = NDArray[np.float64]
@@ -70,14 +71,7 @@ def scale_factor_uncertainty(
     timing: list[BudgetRow] = []
     if time_scaled or rate_source == "table":
         timing.append(
-            from_expanded(
-                "t",
-                Message("Time base"),
-                "1",
-                capability.timing_relative,
-                fit.K,
-                capability.origin("timing_relative"),
-            )
+            from_figure("t", Message("Time base"), "1", capability.figure("timing_relative"), fit.K)
         )
     return combine([*data, *table, *timing, _alignment_row(fit, capability)]), combine([*data_F0, *table_F0])
 
@@ -157,10 +151,9 @@ def _table_rows(
     rates = np.array(fit.rates_dps)
     if rate_source == "table":
         # angle turned over time: two readings of the angle, independent from rate to rate
-        angle = math.sqrt(2.0) * capability.position_arcsec * ARCSEC * math.degrees(1.0)
+        angle = capability.figure("position_arcsec").times(math.sqrt(2.0) * ARCSEC * math.degrees(1.0))
         factor = fit.K * math.sqrt(float(np.sum((weights / evidence.durations_s) ** 2)))
-        origin = capability.origin("position_arcsec")
-        return [from_expanded("θ", Message("Angle read by the table"), "deg", angle, factor, origin)]
+        return [from_figure("θ", Message("Angle read by the table"), "deg", angle, factor)]
     rows = []
     bands = np.array([rate_band(rate) for rate in rates])
     for band in np.unique(bands):
@@ -168,13 +161,12 @@ def _table_rows(
         # one relative error for the whole band: its effects add with their signs
         factor = -fit.K * float(weights[inside] @ rates[inside])
         rows.append(
-            from_expanded(
+            from_figure(
                 "Ω",
                 Message("Table rate, {band}, common to the band", band=RATE_BAND_NAMES[band]),
                 "1",
-                capability.rate_relative[band],
+                capability.figure("rate_relative", int(band)),
                 factor,
-                capability.origin("rate_relative"),
             )
         )
     return rows
@@ -183,15 +175,13 @@ def _table_rows(
 def _alignment_row(fit: ScaleFactorFit, capability: BenchCapability) -> BudgetRow:
     """Case axis against table axis: a cosine, so of second order; level and fixture are seen through it."""
     names = ("level_arcsec", "fixture_perpendicularity_arcsec", "wobble_arcsec")
-    angle = math.sqrt(sum(getattr(capability, name) ** 2 for name in names)) * ARCSEC
-    certified = all(capability.origin(name) == "certificate" for name in names)
-    return from_expanded(
+    angle = root_sum([capability.figure(name) for name in names]).times(ARCSEC)
+    return from_figure(
         "ε",
         Message("Case axis against the table's axis (cosine)"),
         "rad",
         angle,
-        0.5 * fit.K * angle,
-        "certificate" if certified else "assumption",
+        0.5 * fit.K * angle.double,
     )
 
 

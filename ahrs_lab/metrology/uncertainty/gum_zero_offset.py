@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
-from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
+from ahrs_lab.metrology.uncertainty.bench_figure import from_figure
+from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
@@ -67,16 +68,7 @@ def zero_offset_uncertainty(
         )
     )
     if evidence.time_scaled:
-        rows.append(
-            from_expanded(
-                "t",
-                Message("Time base"),
-                "1",
-                capability.timing_relative,
-                -B,
-                capability.origin("timing_relative"),
-            )
-        )
+        rows.append(from_figure("t", Message("Time base"), "1", capability.figure("timing_relative"), -B))
     if evidence.scale_relative > 0.0:
         rows.append(
             type_a(
@@ -124,8 +116,7 @@ def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> li
     cos_phi = Message("Azimuth reference (north); reversal cancels it")
 
     def row(symbol: str, source: Message, name: str, sensitivity: float, to_rad: float = ARCSEC) -> BudgetRow:
-        expanded = getattr(capability, name) * to_rad
-        return from_expanded(symbol, source, "rad", expanded, sensitivity, capability.origin(name))
+        return from_figure(symbol, source, "rad", capability.figure(name).times(to_rad), sensitivity)
 
     return [
         row(

@@ -7,9 +7,11 @@ from datetime import date
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from ahrs_lab.errors import AhrsLabError
+from ahrs_lab.metrology.figures_json import figures_from_text, figures_text
 from ahrs_lab.records.rows import SignedIn, StandardRow
 from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.desk import Desk
+from ahrs_lab.ui.pages.figures_form import FiguresForm
 from ahrs_lab.ui.pages.jobs.checks import overdue
 from ahrs_lab.ui.pages.widgets.dialogs import Question
 from ahrs_lab.ui.pages.widgets.form import ChoiceField, TextField, grid
@@ -99,7 +101,7 @@ class StandardDialog(Question):
     def __init__(self, desk: Desk, actor: SignedIn, row: StandardRow, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._desk, self._actor, self._row = desk, actor, row
-        self.setMinimumWidth(680)
+        self.setMinimumWidth(820)
         self.kind = ChoiceField()
         self.kind.set_choices(list(standard_kinds().items()))
         self.fields = {name: TextField() for name in _NAMES}
@@ -113,11 +115,19 @@ class StandardDialog(Question):
                 (f["certificate_number"], self.due, f["traceability"]),
             )
         )
+        self.figures = FiguresForm()
+        self.body.addWidget(self.figures)
         self._name()
         self.kind.set_key(row.kind)
+        self.figures.set_kind(self.kind.key())
+        self.kind.edited.connect(self._kind_chosen)
         for name, field in self.fields.items():
             field.set_text(str(getattr(row, name)))
         self.due.set_text(row.due.isoformat() if row.due else "")
+        try:
+            self.figures.set_figures(figures_from_text(row.figures_json, row.name))
+        except AhrsLabError as error:
+            self.refuse(said(error.message))
         self.ask(self.tr("Edit standard") if row.id else self.tr("New standard"), "", self.tr("Save"))
 
     def _name(self) -> None:
@@ -137,6 +147,10 @@ class StandardDialog(Question):
             self.fields[name].set_name(text)
         self.due.set_name(self.tr("Due date"), self.tr("year-month-day; empty: none"))
 
+    def _kind_chosen(self) -> None:
+        self.figures.set_kind(self.kind.key())
+        self.adjustSize()
+
     def answered(self) -> None:
         """Save it, or say what is wrong."""
         text = self.due.text()
@@ -147,7 +161,12 @@ class StandardDialog(Question):
             return
         self.due.set_error("")
         values = {name: field.text() for name, field in self.fields.items()}
-        row = StandardRow(id=self._row.id, kind=self.kind.key(), due=due, **values)
+        try:
+            stated = figures_text(self.figures.figures())
+        except ValueError as error:
+            self.refuse(str(error))
+            return
+        row = StandardRow(id=self._row.id, kind=self.kind.key(), due=due, figures_json=stated, **values)
         try:
             self._desk.laboratory.save_standard(row, self._actor)
         except AhrsLabError as error:

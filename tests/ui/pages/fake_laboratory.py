@@ -67,6 +67,7 @@ class FakeLaboratory:
         return self.records.registry.standards()
 
     def save_standard(self, row: StandardRow, actor: SignedIn) -> StandardRow:
+        job_sheets.check_standard(row)
         return self.records.registry.save_standard(row, actor)
 
     def plan_presets(self) -> dict[str, str]:

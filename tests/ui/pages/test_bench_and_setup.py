@@ -8,6 +8,8 @@ import pytest
 from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
+from ahrs_lab.metrology.figures_json import figures_from_text
+from ahrs_lab.metrology.stated_figures import StatedFigure
 from ahrs_lab.records.rows import SignedIn, StandardRow
 from ahrs_lab.ui.pages import bench_model
 from ahrs_lab.ui.pages.setup_people import PersonDialog
@@ -110,6 +112,62 @@ def test_a_standard_is_edited_with_its_due_date(
     empty.show()
     empty.action.click()
     assert empty.refusal()
+
+
+def test_the_figures_of_a_certificate_are_entered_with_their_k(
+    screens: Screens, qtbot: QtBot, actors: dict[str, SignedIn]
+) -> None:
+    row = screens.laboratory.standards()[0]
+    dialog = StandardDialog(screens.desk, actors["operator"], row)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    wobble = dialog.figures.rows["wobble_arcsec"]
+    assert wobble.value.isVisible()
+    assert not dialog.figures.rows["azimuth_arcsec"].value.isVisible()
+    wobble.value.set_text("1.2 arcsec")
+    dialog.action.click()
+    assert "write numbers as" in dialog.refusal()
+    wobble.value.set_text("1,2")
+    dialog.action.click()
+    assert "no coverage factor" in dialog.refusal()
+    assert wobble.k.error()
+    wobble.k.set_text("0")
+    dialog.action.click()
+    assert "no coverage factor" in dialog.refusal()
+    wobble.k.set_text("2.3")
+    wobble.dof.set_text("9")
+    number = dialog.fields["certificate_number"].text()
+    dialog.fields["certificate_number"].set_text("")
+    dialog.action.click()
+    assert "enter the number and the due date" in dialog.refusal()
+    dialog.fields["certificate_number"].set_text(number)
+    dialog.action.click()
+    saved = screens.laboratory.standards()[0]
+    stated = StatedFigure("wobble_arcsec", 1.2, "arcsec", 2.3, dof=9.0)
+    assert figures_from_text(saved.figures_json, "") == (stated,)
+    again = StandardDialog(screens.desk, actors["operator"], saved)
+    qtbot.addWidget(again)
+    again.show()
+    assert again.figures.figures() == (stated,)
+    again.figures.rows["wobble_arcsec"].known_as.set_key("rectangular")
+    again.figures.rows["wobble_arcsec"].known_as.edited.emit()
+    assert not again.figures.rows["wobble_arcsec"].k.isEnabled()
+    again.action.click()
+    limit = StatedFigure("wobble_arcsec", 1.2, "arcsec", distribution="rectangular")
+    assert figures_from_text(screens.laboratory.standards()[0].figures_json, "") == (limit,)
+
+
+def test_a_supply_has_no_figures_to_enter(
+    screens: Screens, qtbot: QtBot, actors: dict[str, SignedIn]
+) -> None:
+    dialog = StandardDialog(screens.desk, actors["operator"], screens.laboratory.standards()[0])
+    qtbot.addWidget(dialog)
+    dialog.show()
+    assert dialog.figures.isVisible()
+    dialog.kind.set_key("supply")
+    dialog.kind.edited.emit()
+    assert not dialog.figures.isVisible()
+    assert dialog.figures.figures() == ()
 
 
 def test_language_and_look_are_asked_for(screens: Screens, qtbot: QtBot) -> None:

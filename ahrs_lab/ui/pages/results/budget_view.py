@@ -70,7 +70,9 @@ class BudgetView(Translated):
         }
         origins = {
             "data": self.tr("the recording"),
-            "certificate": self.tr("a certificate"),
+            "certificate": self.tr("certificate {number}").format(number=row.certificate)
+            if row.certificate
+            else self.tr("a certificate"),
             "assumption": self.tr("an assumption"),
         }
         return (

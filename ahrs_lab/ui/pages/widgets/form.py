@@ -70,6 +70,12 @@ class Field(QWidget):
         column.addWidget(self._message)
         self._hint = ""
         self._error = ""
+        self._bare = False
+
+    def set_bare(self) -> None:
+        """The editor alone, for a row whose headings say the names; what is wrong is its tip."""
+        self._bare = True
+        self._name.setVisible(False)
 
     def set_name(self, text: str, hint: str = "") -> None:
         """What is to be entered; ``hint`` stands below as long as nothing is wrong."""
@@ -91,6 +97,9 @@ class Field(QWidget):
 
     def _show_message(self) -> None:
         text = self._error or self._hint
+        if self._bare:
+            self.editor.setToolTip(text)
+            return
         self._message.setText(text)
         self._message.set_tone("bad" if self._error else "faint")
         self._message.setVisible(bool(text))

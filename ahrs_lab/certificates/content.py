@@ -548,15 +548,20 @@ def _budgets(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ..
     ]
     for words, uncertainties, names, factors in kinds:
         if uncertainties:
-            blocks += [
-                _budget_heading(words, writer),
-                budget_table(names, uncertainties, factors, marks, writer),
-            ]
+            note = () if blocks else (_budget_note(marks, writer.language),)
+            table = budget_table(names, uncertainties, factors, marks, writer)
+            blocks += [_budget_heading(words, writer), *note, table]
+    return tuple(blocks)
+
+
+def _budget_note(marks: Mapping[str, str], language: CertificateLanguage) -> Paragraph:
+    """What the columns are and where the bench's figures come from; before the first table, so that it never
+    stands alone on a page."""
     note = [wording.BUDGET_NOTE]
     if marks:
-        named = "; ".join(f"{mark}^{{)}} {number}" for number, mark in marks.items())
+        named = "; ".join(f"^{{{mark})}} {number}" for number, mark in marks.items())
         note.append(wording.BUDGET_CERTIFICATES.filled(numbers=named))
-    return (*blocks, Paragraph(label(_run_on(note), writer.language), size=7.0))
+    return Paragraph(label(_run_on(note), language), size=7.0, together=True, kept=True)
 
 
 def _budget_heading(kind: Words, writer: ResultWriter) -> Heading:

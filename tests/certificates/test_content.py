@@ -15,7 +15,7 @@ import pytest
 
 from ahrs_lab.certificates.certificate import certificate_pdf
 from ahrs_lab.certificates.content import certificate_content
-from ahrs_lab.certificates.documents import Table
+from ahrs_lab.certificates.documents import Paragraph, Table
 from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet
 from ahrs_lab.certificates.result_tables import ResultWriter, certificates_of, significant
 from ahrs_lab.certificates.richtext import number_of, text_of
@@ -410,7 +410,8 @@ def test_a_budgets_line_says_which_certificate_states_it(result: CalibrationResu
     assert f"{source} a)" in names
     assert f"{source} b)" in names
     assert not any(name.startswith(source) and name.endswith("*") for name in names)
-    note = text_of(content.pages[1][-1].text.main)  # type: ignore[union-attr]
+    said = [text_of(block.text.main) for block in content.pages[1] if isinstance(block, Paragraph)]
+    note = next(text for text in said if text.startswith("Columns"))
     assert "a) GFJGJL-1; b) GFJGJL-2" in note
 
 

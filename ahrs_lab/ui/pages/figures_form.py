@@ -27,7 +27,7 @@ from ahrs_lab.ui.widgets import Label
 
 _UNIT_SIGNS = {"arcsec": "″", "arcmin": "′", "deg": "°", "urad": "µrad"}
 _ROWS_SHOWN_PX = 202
-_NUMBER_PX = 92
+_NUMBER_PX, _UNIT_PX, _STATED_PX = 80, 84, 176
 
 
 @dataclass
@@ -85,6 +85,8 @@ class FiguresForm(Translated):
         row.known_as.edited.connect(lambda: _allow(row))
         for number in (row.value, row.k, row.dof):
             number.setFixedWidth(_NUMBER_PX)
+        row.unit.setFixedWidth(_UNIT_PX)
+        row.known_as.setFixedWidth(_STATED_PX)
         self._grid.addWidget(row.name, line, 0)
         for place, field in enumerate(row.fields, 1):
             field.set_bare()

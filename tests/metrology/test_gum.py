@@ -70,7 +70,8 @@ def test_the_noise_of_four_positions_is_half_the_density_over_root_T() -> None:
         2.5e-3 / (2.0 * math.sqrt(1800.0))
     )
     assert {entry.sensitivity for entry in noise} == {1.0 / 7200.0}
-    assert found.dof == pytest.approx(400.0, rel=0.05)
+    # four positions, but one estimate of the density: its degrees of freedom count once
+    assert found.dof == pytest.approx(100.0, rel=0.05)
 
 
 def test_counts_bring_the_uncertainty_of_their_scale_factor() -> None:

@@ -12,7 +12,7 @@ from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
-from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_variance
+from ahrs_lab.metrology.uncertainty.noise import WHITE_NOISE, NoiseModel, drift_variance
 
 
 @dataclass(frozen=True)
@@ -84,6 +84,7 @@ def _recording_rows(evidence: MisalignmentEvidence, per_degree: float) -> list[B
             per_degree,
             dof,
             estimate=evidence.angle_positive_deg,
+            shared=WHITE_NOISE,
         ),
         type_a(
             "N⁻",
@@ -93,6 +94,7 @@ def _recording_rows(evidence: MisalignmentEvidence, per_degree: float) -> list[B
             -per_degree,
             dof,
             estimate=evidence.angle_negative_deg,
+            shared=WHITE_NOISE,
         ),
         type_a(
             "D",

@@ -18,7 +18,7 @@ from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
-from ahrs_lab.metrology.uncertainty.noise import NoiseModel
+from ahrs_lab.metrology.uncertainty.noise import WHITE_NOISE, NoiseModel
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
@@ -98,6 +98,7 @@ def _dwell_rows(evidence: ZeroOffsetEvidence) -> list[BudgetRow]:
             1.0 / (count * duration),
             evidence.noise.white_dof,
             estimate=float(angle),
+            shared=WHITE_NOISE,
         )
         for index, (duration, repeats, angle) in enumerate(
             zip(evidence.durations_s, evidence.repeats, evidence.angles_deg, strict=True), start=1

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 BATCH_S = 1.0
+WHITE_NOISE = "N"
+"""Name of the white density as an estimate that several rows of a budget share."""
 FLICKER_SQUARED = 2.0 * math.log(2.0) / math.pi
 """(0.664282)²: Allan variance of flicker noise over B² (IEEE 952)."""
 _LONGEST_WHITE_START_S = 16.0

@@ -180,13 +180,17 @@ def _budget_input(
         resolution=evidence.resolution[axis].step,
         dithered=evidence.resolution[axis].dithered,
         noise=evidence.noise[axis],
+        latitude_deg=evidence.site.latitude_deg,
     )
 
 
 def _mean(evidence: Evidence, takes: Sequence[Take], axis: Axis) -> _Mean:
     """(10) for one recording; of several the mean of their means."""
-    inflation = evidence.noise[axis].inflation
-    errors = [standard_error(axis_batches(take.output, axis)[0], inflation) for take in takes]
+    noise = evidence.noise[axis]
+    errors = [
+        standard_error(axis_batches(take.output, axis)[0], noise.inflation(take.output.duration_s))
+        for take in takes
+    ]
     count = len(takes)
     return _Mean(
         value=sum(take.output.mean(axis) for take in takes) / count,

@@ -287,14 +287,14 @@ def _budget_input(
 
 
 def _turned(positions: Sequence[_Position]) -> Array:
-    """How far the table was turned from the first position of the same mounting, degrees."""
+    """The table's azimuth, degrees; where it was not recorded, from the mounting's first position on."""
     first: dict[str, _Position] = {}
     turned = []
     for position in positions:
         reference = first.setdefault(position.orientation.face, position)
         quarters = position.orientation.azimuth_from(reference.orientation)
         given = position.takes[0].segment.azimuth_deg is not None
-        turned.append(position.azimuth_deg - reference.azimuth_deg if given else quarters)
+        turned.append(position.azimuth_deg if given else quarters)
     return np.array(turned)
 
 

@@ -50,11 +50,21 @@ def test_an_azimuth_error_of_the_stops_leaves_the_horizontal_rate_over_root_eigh
     assert found.standard_uncertainty == pytest.approx(5.0 * ARCSEC)
 
 
-def test_a_tilt_of_the_case_leaves_the_vertical_rate() -> None:
+def test_a_tilt_that_every_mounting_has_leaves_the_vertical_rate() -> None:
+    """The platform's lean is common to the mountings; seat and face are each mounting's own."""
     found = zero_offset_uncertainty(0.0, four_positions(), BENCH)
     vertical = EARTH_DPS * math.sin(math.radians(LATITUDE))
-    assert row(found, "β").sensitivity == pytest.approx(vertical)
+    assert row(found, "w").sensitivity == pytest.approx(vertical)
+    assert row(found, "β").sensitivity == pytest.approx(vertical / math.sqrt(2.0))
     assert row(found, "γ").sensitivity == pytest.approx(vertical / math.sqrt(2.0))
+
+
+def test_a_lean_of_the_platform_counts_by_where_the_table_stood() -> None:
+    """Had the other mounting's positions been turned to from the other side, the lean would cancel."""
+    turned = np.array([0.0, 180.0, 180.0, 0.0])
+    found = zero_offset_uncertainty(0.0, replace(four_positions(), turned_deg=turned), BENCH)
+    assert row(found, "w").contribution == 0.0
+    assert row(found, "β").contribution > 0.0
 
 
 @pytest.mark.parametrize("directions", [(E, E, -E, -E), (N, -N, -N, N), (U, -U, U, -U)])
@@ -89,17 +99,16 @@ def test_the_sensitivities_are_those_of_a_tilted_case() -> None:
         # a seat tilted about the table's own "north" axis
         axis = np.array([-math.sin(math.radians(turned)), math.cos(math.radians(turned)), 0.0])
         felt.append((direction + tilt * np.cross(axis, direction)) @ omega)
-    found = row(zero_offset_uncertainty(0.0, evidence, BENCH), "β")
+    found = row(zero_offset_uncertainty(0.0, evidence, BENCH), "w")
     assert abs(float(np.mean(felt))) / tilt == pytest.approx(found.sensitivity, rel=1e-9)
 
 
 RATES = np.array([-300.0, -200.0, -5.0, -0.5, 0.5, 5.0, 200.0, 310.0])
 
 
-def scale_factor(noise: float = 1e-3, rate_source: str = "demanded") -> Uncertainty:
+def line_evidence(noise: float = 1e-3) -> ScaleFactorEvidence:
     count = len(RATES)
-    fit = fit_scale_factor(RATES, 1.01 * RATES, 0.0, 0.0)
-    evidence = ScaleFactorEvidence(
+    return ScaleFactorEvidence(
         standard_errors=np.full(count, noise),
         dofs=np.full(count, 19.0),
         durations_s=np.full(count, 30.0),
@@ -112,7 +121,12 @@ def scale_factor(noise: float = 1e-3, rate_source: str = "demanded") -> Uncertai
         resolution=0.0,
         dithered=True,
         noise=NoiseModel(),
+        latitude_deg=LATITUDE,
     )
+
+
+def scale_factor(noise: float = 1e-3, rate_source: str = "demanded") -> Uncertainty:
+    fit, evidence = fit_scale_factor(RATES, 1.01 * RATES, 0.0, 0.0), line_evidence(noise)
     found, _ = scale_factor_uncertainty(fit, evidence, BENCH, device_unit="deg/s", rate_source=rate_source)  # type: ignore[arg-type]
     return found
 
@@ -143,6 +157,54 @@ def test_measured_rates_replace_the_tables_rate_by_its_angle_and_time() -> None:
     spread = float(((RATES - RATES.mean()) ** 2).sum())
     each = math.sqrt(2.0) * 5.0 / 3600.0 / 30.0
     assert row(found, "θ").contribution == pytest.approx(1.01 * each / math.sqrt(spread))
+
+
+def scatter_beyond(extra: np.ndarray, noise: NoiseModel | None = None) -> float:
+    """u of the row v, where the means lie off the line by ``extra``."""
+    evidence = replace(line_evidence(1e-5), noise=noise or NoiseModel())
+    fit = fit_scale_factor(RATES, RATES + extra, 0.0, 0.0)
+    found, _ = scale_factor_uncertainty(fit, evidence, BENCH, device_unit="deg/s", rate_source="demanded")
+    return row(found, "v").standard_uncertainty
+
+
+def test_a_smooth_nonlinearity_is_no_scatter_of_K() -> None:
+    """K is the slope through the response at the rates run: what bends is stated in ppm, not in U."""
+    relative = RATES / 300.0
+    assert scatter_beyond(0.01 * relative**3 - 0.02 * relative**2 + 0.005 * np.abs(relative)) == 0.0
+
+
+def test_scatter_about_the_curve_is_found() -> None:
+    rng = np.random.default_rng(8)
+    squares = [scatter_beyond(rng.normal(0.0, 1e-3, len(RATES))) ** 2 for _ in range(400)]
+    assert float(np.mean(squares)) == pytest.approx(1e-6, rel=0.2)
+
+
+def test_noise_and_drift_are_not_counted_again_as_scatter() -> None:
+    rng = np.random.default_rng(9)
+    assert np.mean([scatter_beyond(rng.normal(0.0, 1e-5, len(RATES))) > 0.0 for _ in range(400)]) < 0.1
+    walk = 1e-3
+    steps = [np.cumsum(rng.normal(0.0, walk * math.sqrt(30.0), len(RATES))) for _ in range(400)]
+    found = [scatter_beyond(path, NoiseModel(walk=walk)) > 0.0 for path in steps]
+    # means of a walk, not its values at single times, are what the drift's formula is of
+    assert np.mean(found) < 0.15
+
+
+def test_a_leaning_case_feels_the_horizontal_rate_at_rest_but_not_at_the_rates() -> None:
+    fit = fit_scale_factor(RATES, 1.01 * RATES, 0.0, 0.0)
+    _, found = scale_factor_uncertainty(
+        fit, line_evidence(), BENCH, device_unit="deg/s", rate_source="demanded"
+    )
+    lean = 0.5 * math.sqrt(20.0**2 + 5.0**2 + 2.0**2) * ARCSEC
+    horizontal = EARTH_DPS * math.cos(math.radians(LATITUDE))
+    assert row(found, "β").contribution == pytest.approx(1.01 * lean * horizontal)
+
+
+def test_the_cosine_of_a_lean_in_two_directions_has_its_root_mean_square() -> None:
+    lean = 0.5 * math.sqrt(20.0**2 + 5.0**2 + 2.0**2) * ARCSEC
+    drawn = np.random.default_rng(10).normal(0.0, lean, (2, 200_000))
+    lost = 0.5 * (drawn**2).sum(axis=0)
+    stated = row(scale_factor(), "ε").contribution
+    assert stated == pytest.approx(1.01 * math.sqrt(float(np.mean(lost**2))), rel=0.02)
 
 
 def turns() -> MisalignmentEvidence:

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import chdtri
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import (
@@ -16,12 +17,16 @@ from ahrs_lab.metrology.conditions import (
     BenchCapability,
     rate_band,
 )
-from ahrs_lab.metrology.result import BudgetRow, Uncertainty
+from ahrs_lab.metrology.result import BudgetRow, Origin, Uncertainty
 from ahrs_lab.metrology.scale_factor import ScaleFactorFit
 from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_variance
+from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
+
+SIGNIFICANCE = 0.05
+"""How often noise and drift alone may scatter so that it counts as something else."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +50,16 @@ class ScaleFactorEvidence:
     resolution: float
     dithered: bool
     noise: NoiseModel
+    latitude_deg: float
+
+    @property
+    def all_starts_s(self) -> Array:
+        """Shape (M + 2,): of the rates, then of the two at rest."""
+        return np.array([*self.starts_s, *self.rest_starts_s])
+
+    @property
+    def all_durations_s(self) -> Array:
+        return np.array([*self.durations_s, *self.rest_durations_s])
 
 
 def scale_factor_uncertainty(
@@ -63,10 +78,11 @@ def scale_factor_uncertainty(
     K_weights, F0_weights = np.array(fit.K_weights), np.array(fit.F0_weights)
     table = _table_rows(fit, K_weights, evidence, capability, rate_source)
     table_F0 = _table_rows(fit, F0_weights, evidence, capability, rate_source)
-    data = _data_rows(fit, K_weights, evidence, device_unit, 1.0 / math.sqrt(fit.spread))
+    scatter = unexplained_scatter(fit, evidence)
+    data = _data_rows(K_weights, evidence, scatter, device_unit, 1.0 / math.sqrt(fit.spread))
     F0_scale = 1.0 / math.sqrt(len(F0_weights))
-    data_F0 = _data_rows(fit, F0_weights, evidence, device_unit, F0_scale)
-    data_F0.append(_rest_row(evidence, device_unit))
+    data_F0 = _data_rows(F0_weights, evidence, scatter, device_unit, F0_scale)
+    data_F0 += [_rest_row(evidence, device_unit), _level_row(fit, evidence, capability)]
     timing: list[BudgetRow] = []
     if time_scaled or rate_source == "table":
         timing.append(
@@ -83,23 +99,25 @@ def scale_factor_uncertainty(
 
 
 def _data_rows(
-    fit: ScaleFactorFit, weights: Array, evidence: ScaleFactorEvidence, unit: str, scale: float
+    weights: Array, evidence: ScaleFactorEvidence, scatter: tuple[float, float], unit: str, scale: float
 ) -> list[BudgetRow]:
-    """Noise, lack of fit, drift, resolution, each as the equivalent uncertainty of one mean times
-    ``scale``."""
+    """Noise, scatter, drift, resolution, each as the equivalent uncertainty of one mean times ``scale``."""
     variances = (weights * evidence.standard_errors) ** 2
     noise = math.sqrt(float(variances.sum()))
     dof = _pooled_dof(variances, evidence.dofs)
     rows = [type_a("F̄", Message("Sensor noise in the means at the rates"), unit, noise / scale, scale, dof)]
-    freedom = len(weights) - 2
-    if freedom > 0:
-        scatter = sum(v * v for v in fit.residuals) / freedom
-        expected = float(np.mean(evidence.standard_errors**2))
-        excess = math.sqrt(max(0.0, scatter - expected))
-        factor = math.sqrt(float(weights @ weights))
-        rows.append(
-            type_a("v", Message("Lack of fit beyond the sensor noise"), unit, excess, factor, freedom)
+    excess, freedom = scatter
+    factor = math.sqrt(float(weights @ weights))
+    rows.append(
+        type_a(
+            "v",
+            Message("Scatter about a smooth curve beyond noise and drift"),
+            unit,
+            math.sqrt(excess),
+            factor,
+            freedom if excess > 0.0 else math.inf,
         )
+    )
     rows.append(_drift_row(weights, evidence, unit))
     per_mean = weights / np.sqrt(evidence.samples) if evidence.dithered else weights
     rows.append(
@@ -118,11 +136,8 @@ def _data_rows(
 def _drift_row(weights: Array, evidence: ScaleFactorEvidence, unit: str) -> BudgetRow:
     """Drift between the recordings; the weights of the two at rest make Σc = 0 (for K they are 0)."""
     rest = -0.5 * float(weights.sum())
-    variance = drift_variance(
-        np.array([*weights, rest, rest]),
-        np.array([*evidence.starts_s, *evidence.rest_starts_s]),
-        np.array([*evidence.durations_s, *evidence.rest_durations_s]),
-        evidence.noise,
+    variance, dof = drift_variance(
+        np.array([*weights, rest, rest]), evidence.all_starts_s, evidence.all_durations_s, evidence.noise
     )
     factor = math.sqrt(float(weights @ weights))
     return type_a(
@@ -131,8 +146,49 @@ def _drift_row(weights: Array, evidence: ScaleFactorEvidence, unit: str) -> Budg
         unit,
         math.sqrt(variance) / factor,
         factor,
-        evidence.noise.drift_dof,
+        dof,
     )
+
+
+def unexplained_scatter(fit: ScaleFactorFit, evidence: ScaleFactorEvidence) -> tuple[float, float]:
+    """Variance of a mean beyond noise and drift, and its degrees of freedom.
+
+    K is the slope of the least squares line through the response at the rates run, so what a smooth
+    nonlinearity or asymmetry leaves beside the line is the unit's own (it is stated in ppm), not an error of
+    K. Scatter is counted about a curve with Ω², |Ω| and Ω³ too, and only where noise and drift would exceed
+    it in fewer than one case in twenty.
+    """
+    rates = np.array(fit.rates_dps) / max(abs(rate) for rate in fit.rates_dps)
+    curve = np.column_stack([np.ones_like(rates), rates, rates**2, np.abs(rates), rates**3])
+    left, singular, _ = np.linalg.svd(curve, full_matrices=True)
+    smooth = int(np.sum(singular > 1e-6 * singular[0]))
+    contrasts = left[:, smooth:].T
+    freedom = len(contrasts)
+    if freedom == 0:
+        return 0.0, math.inf
+    scatter = float(np.sum((contrasts @ np.array(fit.outputs)) ** 2))
+    drift, _ = drift_variance(contrasts, evidence.starts_s, evidence.durations_s, evidence.noise)
+    expected = float(np.sum(contrasts**2 @ evidence.standard_errors**2)) + drift
+    if scatter <= expected * float(chdtri(freedom, SIGNIFICANCE)) / freedom:
+        return 0.0, freedom
+    return (scatter - expected) / freedom, freedom
+
+
+def _level_row(fit: ScaleFactorFit, evidence: ScaleFactorEvidence, capability: BenchCapability) -> BudgetRow:
+    """A case that leans feels the Earth's horizontal rate at rest; at the rates it turns away."""
+    horizontal = EARTH_RATE_DPS * math.cos(math.radians(evidence.latitude_deg))
+    angle, origin = _lean(capability)
+    return from_expanded(
+        "β", Message("Level of the case, through the Earth's rate"), "rad", angle, fit.K * horizontal, origin
+    )
+
+
+def _lean(capability: BenchCapability) -> tuple[float, Origin]:
+    """Case axis against table axis in one direction, rad, k = 2: seat, fixture and wobble."""
+    names = ("level_arcsec", "fixture_perpendicularity_arcsec", "wobble_arcsec")
+    angle = math.sqrt(sum(getattr(capability, name) ** 2 for name in names)) * ARCSEC
+    certified = all(capability.origin(name) == "certificate" for name in names)
+    return angle, "certificate" if certified else "assumption"
 
 
 def _rest_row(evidence: ScaleFactorEvidence, unit: str) -> BudgetRow:
@@ -182,16 +238,15 @@ def _table_rows(
 
 def _alignment_row(fit: ScaleFactorFit, capability: BenchCapability) -> BudgetRow:
     """Case axis against table axis: a cosine, so of second order; level and fixture are seen through it."""
-    names = ("level_arcsec", "fixture_perpendicularity_arcsec", "wobble_arcsec")
-    angle = math.sqrt(sum(getattr(capability, name) ** 2 for name in names)) * ARCSEC
-    certified = all(capability.origin(name) == "certificate" for name in names)
+    angle, origin = _lean(capability)
     return from_expanded(
         "ε",
         Message("Case axis against the table's axis (cosine)"),
         "rad",
         angle,
-        0.5 * fit.K * angle,
-        "certificate" if certified else "assumption",
+        # K is too small by θ²/2; leaning both ways by u, θ²/2 has the root mean square √2·u² = (U/√2)·U/2
+        fit.K * angle / math.sqrt(2.0),
+        origin,
     )
 
 

@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 class ZeroOffsetEvidence:
     """The n dwells of one axis, in order. Rates in °/s.
 
-    ``directions``: shape (n, 3), where the axis points, east-north-up. ``turned_deg``: shape (n,), how far
-    the table was turned from the first stop of its mounting; ``mountings``: shape (n,), equal where the case
+    ``directions``: shape (n, 3), where the axis points, east-north-up. ``turned_deg``: shape (n,), the
+    table's azimuth; ``mountings``: shape (n,), equal where the case
     was not re-mounted between. ``resolution_dps``, ``samples``, ``dithered`` as for the scale factor.
     ``scale_relative``: standard uncertainty of the fitted K where counts were scaled by it, else 0.
     """
@@ -87,14 +87,15 @@ def zero_offset_uncertainty(
 
 
 def _dwell_rows(evidence: ZeroOffsetEvidence) -> list[BudgetRow]:
-    """u(N_i) = N·√T from the white noise, ∂B/∂N_i = 1/(n·T_i); repeats are averaged."""
+    """u(N_i) = √(N²T + 2Q²) from the white noise of rate and angle, ∂B/∂N_i = 1/(n·T_i); repeats are
+    averaged."""
     count = len(evidence.durations_s)
     return [
         type_a(
             f"N_{index}",
             Message("Sensor noise in position {position}", position=index),
             "deg",
-            evidence.noise.white * math.sqrt(duration / repeats),
+            math.sqrt(evidence.noise.angle_variance(duration) / repeats),
             1.0 / (count * duration),
             evidence.noise.white_dof,
             estimate=float(angle),
@@ -142,12 +143,18 @@ def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> li
             "axis_tilt_arcsec",
             _clean(math.hypot(float(common[0]), float(common[1]))),
         ),
-        # a seat that is not level turns with the table, and in every mounting alike
+        # what turns with the table: the platform's own lean is the same in every mounting, the seat is not
+        row(
+            "w",
+            Message("Wobble of the table's axis, through the Earth's rate"),
+            "wobble_arcsec",
+            _clean(math.hypot(*with_table[:, :2].sum(axis=0))),
+        ),
         row(
             "β",
             Message("Level of the case, through the Earth's rate"),
             "level_arcsec",
-            _clean(float(tilts.sum())),
+            _clean(math.sqrt(float(np.sum(tilts**2)))),
         ),
         row(
             "γ",

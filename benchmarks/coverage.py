@@ -173,7 +173,9 @@ def _make(configuration: Configuration, count: int, seed: tuple[int, int]) -> Ta
     for index, shown in enumerate(itertools.islice(noise, count)):
         unit = draw_unit(grade, len(course.mountings), rng)
         recording = record(course, unit, draw_bench(course, stated, rng), shown)
-        tally.add(index, reduce_recording(recording, capability=stated), truth_of(course, unit, shown))
+        tally.add(
+            index, reduce_recording(recording, capability=stated, trials=0), truth_of(course, unit, shown)
+        )
     tally.seconds = time.process_time() - started
     return tally
 

@@ -143,6 +143,12 @@ def _evaluation_options(parser: argparse.ArgumentParser) -> None:
         help="Ω: the demanded rates, or the table's angle over time",
     )
     parser.add_argument("--uncertainty", choices=("gum", "annex-a"), default="gum")
+    parser.add_argument(
+        "--trials",
+        type=int,
+        metavar="N",
+        help="of the Monte Carlo check of each uncertainty (as many as it needs; 0: without)",
+    )
 
 
 def _one_line(text: str) -> str:

@@ -97,7 +97,9 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _settings(arguments: argparse.Namespace) -> EvaluationSettings:
-    return EvaluationSettings(rates=arguments.rates, uncertainty=arguments.uncertainty)
+    return EvaluationSettings(
+        rates=arguments.rates, uncertainty=arguments.uncertainty, trials=arguments.trials
+    )
 
 
 def _evaluate(arguments: argparse.Namespace) -> int:

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.result import ResultWarning, ScaleFactorResult, ZeroOffsetResult
+from ahrs_lab.metrology.uncertainty.full_model import check_by_monte_carlo
+from ahrs_lab.metrology.uncertainty.full_zero_offset import zero_offset_model
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence, zero_offset_uncertainty
 from ahrs_lab.metrology.zero_offset import azimuth_harmonic, zero_offset
 from ahrs_lab.procedures.reduction_evidence import Evidence
@@ -194,14 +196,14 @@ def _result(
     B = zero_offset(angles, durations)
     duration = float(durations.mean())
     repeatability, cycles = _repeatability(evidence, axis, positions, factor, duration)
-    budget = zero_offset_uncertainty(
-        B,
-        _budget_input(evidence, axis, positions, angles, durations, factor, scale_relative),
-        evidence.capability,
-    )
+    recorded = _budget_input(evidence, axis, positions, angles, durations, factor, scale_relative)
+    budget = zero_offset_uncertainty(B, recorded, evidence.capability)
     if evidence.method == "annex-a":
         repeated = [row.contribution for row in budget.rows if row.symbol.startswith("N_")]
         budget = evidence.annex_a(B, "deg/s", math.inf, evidence.acquisition_bits(axis), repeated)
+    else:
+        model = zero_offset_model(B, recorded, budget)
+        budget = check_by_monte_carlo(budget, B, model, evidence.monte_carlo, f"B_{axis}")
     return ZeroOffsetResult(
         axis=axis,
         B=B,

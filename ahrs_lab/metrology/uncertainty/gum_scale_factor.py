@@ -76,8 +76,9 @@ def scale_factor_uncertainty(
     ``time_scaled``: the outputs were made of increments over the device's time, so its error enters.
     """
     K_weights, F0_weights = np.array(fit.K_weights), np.array(fit.F0_weights)
-    table = _table_rows(fit, K_weights, evidence, capability, rate_source)
-    table_F0 = _table_rows(fit, F0_weights, evidence, capability, rate_source)
+    mean_rate = float(np.mean(fit.rates_dps))
+    table = _table_rows(fit, K_weights, 1.0 / fit.spread, evidence, capability, rate_source)
+    table_F0 = _table_rows(fit, F0_weights, -mean_rate / fit.spread, evidence, capability, rate_source)
     scatter = unexplained_scatter(fit, evidence)
     data = _data_rows(K_weights, evidence, scatter, device_unit, 1.0 / math.sqrt(fit.spread))
     F0_scale = 1.0 / math.sqrt(len(F0_weights))
@@ -203,13 +204,21 @@ def _rest_row(evidence: ScaleFactorEvidence, unit: str) -> BudgetRow:
     )
 
 
+def bands_of(rates_dps: Array) -> NDArray[np.int_]:
+    """The band of clause 6 of each rate, shape (M,)."""
+    return np.array([rate_band(rate) for rate in rates_dps])
+
+
 def _table_rows(
     fit: ScaleFactorFit,
     weights: Array,
+    slope_residuals: float,
     evidence: ScaleFactorEvidence,
     capability: BenchCapability,
     rate_source: Literal["demanded", "table"],
 ) -> list[BudgetRow]:
+    """∂/∂Ω_j is −K·weight_j for means on the line; off it a residual v_j turns the line by v_j/S, which
+    ``slope_residuals`` counts: 1/S for K, −Ω̄/S for F₀."""
     rates = np.array(fit.rates_dps)
     if rate_source == "table":
         # angle turned over time: two readings of the angle, independent from rate to rate
@@ -218,11 +227,12 @@ def _table_rows(
         origin = capability.origin("position_arcsec")
         return [from_expanded("θ", Message("Angle read by the table"), "deg", angle, factor, origin)]
     rows = []
-    bands = np.array([rate_band(rate) for rate in rates])
+    bands = bands_of(rates)
+    moved = slope_residuals * np.array(fit.residuals) - fit.K * weights
     for band in np.unique(bands):
         inside = bands == band
         # one relative error for the whole band: its effects add with their signs
-        factor = -fit.K * float(weights[inside] @ rates[inside])
+        factor = float(moved[inside] @ rates[inside])
         rows.append(
             from_expanded(
                 "Ω",

@@ -113,14 +113,49 @@ def earth_rate_vector(latitude_deg: float) -> Array:
     return EARTH_RATE_DPS * np.array([0.0, math.cos(latitude), math.sin(latitude)])
 
 
+@dataclass(frozen=True)
+class EarthLeverage:
+    """How the errors of the case's attitude let the Earth's rate in; °/s per rad, east-north-up.
+
+    ``each``: shape (n, 3), of each stop, weighted by 1/n; ``with_table``: shape (mountings, 3), summed over
+    each of the mountings ``names`` in axes that turn with the table; ``first_stops``: shape (n,).
+    """
+
+    earth: Array
+    each: Array
+    with_table: Array
+    names: tuple[str, ...]
+    first_stops: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, evidence: ZeroOffsetEvidence) -> EarthLeverage:
+        """Of the stops of one axis."""
+        omega = earth_rate_vector(evidence.latitude_deg)
+        each = np.cross(evidence.directions, omega) / len(evidence.directions)
+        return cls(
+            earth=omega,
+            each=each,
+            with_table=_per_mounting(_turned_back(each, evidence.turned_deg), evidence.mountings),
+            names=tuple(sorted(set(evidence.mountings))),
+            first_stops=_first_of_mounting(evidence.mountings),
+        )
+
+    @property
+    def tilts(self) -> Array:
+        """Shape (mountings,): by a tilt of each about its worst horizontal axis of the table."""
+        return np.asarray(np.hypot(self.with_table[:, 0], self.with_table[:, 1]))
+
+    @property
+    def common_tilt(self) -> float:
+        """By a tilt that all mountings have about one horizontal axis of the table, the worst."""
+        east, north, _ = self.with_table.sum(axis=0).tolist()
+        return math.hypot(east, north)
+
+
 def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> list[BudgetRow]:
-    weight = 1.0 / len(evidence.directions)
-    omega = earth_rate_vector(evidence.latitude_deg)
-    leverage = weight * np.cross(evidence.directions, omega)  # ∂B/∂δ of each position, °/s per rad
-    common = leverage.sum(axis=0)
-    with_table = _per_mounting(_turned_back(leverage, evidence.turned_deg), evidence.mountings)
-    tilts = np.hypot(with_table[:, 0], with_table[:, 1])
-    stops = _first_of_mounting(evidence.mountings)
+    leverage = EarthLeverage.of(evidence)
+    common = leverage.each.sum(axis=0)
+    tilts = leverage.tilts
     latitude = math.radians(evidence.latitude_deg)
     change = EARTH_RATE_DPS * np.array([0.0, -math.sin(latitude), math.cos(latitude)])
     cos_phi = Message("Azimuth reference (north); reversal cancels it")
@@ -134,7 +169,7 @@ def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> li
             "α",
             Message("Table position from stop to stop, through the Earth's rate"),
             "position_arcsec",
-            math.sqrt(float(np.sum(leverage[~stops, 2] ** 2))),
+            math.sqrt(float(np.sum(leverage.each[~leverage.first_stops, 2] ** 2))),
         ),
         row("ψ", cos_phi, "azimuth_arcsec", _clean(float(common[2]))),
         row(
@@ -148,7 +183,7 @@ def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> li
             "w",
             Message("Wobble of the table's axis, through the Earth's rate"),
             "wobble_arcsec",
-            _clean(math.hypot(*with_table[:, :2].sum(axis=0))),
+            _clean(leverage.common_tilt),
         ),
         row(
             "β",
@@ -166,7 +201,7 @@ def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> li
             "φ",
             Message("Latitude; reversal cancels it"),
             "latitude_deg",
-            _clean(weight * float((evidence.directions @ change).sum())),
+            _clean(float((evidence.directions @ change).mean())),
             math.radians(1.0),
         ),
     ]

@@ -213,9 +213,7 @@ def test_B_is_what_a_case_shows_that_is_rotated_by_hand() -> None:
     felt = []
     for index, (direction, turned) in enumerate(zip(evidence.directions, evidence.turned_deg, strict=True)):
         mounting = evidence.mountings[index]
-        tilt = sum(
-            np.array(part) for part in (value["w"], value["β"][own[mounting]], value["γ"][own[mounting]])
-        )
+        tilt = np.sum([value["w"], value["β"][own[mounting]], value["γ"][own[mounting]]], axis=0)
         about_up = Rotation.from_euler("z", turned, degrees=True)
         seat = about_up * Rotation.from_rotvec([*tilt, 0.0]) * about_up.inv()
         stop = Rotation.from_euler("z", 0.0 if index < 2 else next(alpha))

@@ -124,6 +124,8 @@ def fit_noise(dwells: Sequence[Array], batch_s: float) -> NoiseModel:
     taus, variances, dofs = _pooled_allan(dwells, batch_s)
     if not len(taus) or variances[0] == 0.0:
         return NoiseModel()
+    if not np.all(np.isfinite(variances)):  # readings too large to square
+        return NoiseModel(white=math.inf, white_dof=1.0)
     first, fit = 0, _fit_terms(taus, variances, dofs)
     while len(taus) - first > 4 and 2.0 * taus[first] <= _LONGEST_WHITE_START_S:
         spread = math.sqrt(2.0 / dofs[first])

@@ -67,7 +67,7 @@ def test_9_2_4_rectangular_quantities_one_of_them_ten_times_as_wide() -> None:
 def test_9_3_mass_calibration() -> None:
     """δm in mg. First order: 1.2340, u = 0.0539, [1.1285, 1.3395]: not validated; with the terms of second
     order u = 0.0750, [1.0870, 1.3810]: validated. Trials: u = 0.0754, [1.0834, 1.3825]; δ = 0.005."""
-    inputs = [
+    inputs: list[Input] = [
         Normal(100_000.000, 0.050),
         Normal(1.234, 0.020),
         Rectangular(1.20, 0.10),
@@ -118,7 +118,7 @@ def test_9_4_comparison_loss_in_microwave_power_meter_calibration(
 def test_9_5_gauge_block() -> None:
     """δL in nm, 99 %: 838, u = 36, [745, 932] of the trials; 838, u = 32, [745, 931] of the GUM: validated
     with δ = 5."""
-    inputs = [
+    inputs: list[Input] = [
         StudentT(50_000_623.0, 25.0, 18.0),
         StudentT(215.0, 6.0, 24.0),
         StudentT(0.0, 4.0, 5.0),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.misalignment import misalignment
@@ -149,7 +150,7 @@ def _result(
         repeated = [row.contribution for row in budget.rows if row.symbol in ("N⁺", "N⁻")]
         budget = evidence.annex_a(L, "rad", rate, evidence.acquisition_bits(output), repeated)
     else:
-        model = misalignment_model(L, recorded, budget)
+        model = partial(misalignment_model, L, recorded, budget)
         budget = check_by_monte_carlo(budget, L, model, evidence.monte_carlo, f"L_{output}{turned}")
     return MisalignmentResult(
         output_axis=output,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ahrs_lab.metrology.conditions import AVERAGING_ANGLES_DEG, rate_band
 from ahrs_lab.metrology.result import ResultWarning, ScaleFactorResult
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
 from ahrs_lab.metrology.uncertainty.full_model import check_by_monte_carlo
-from ahrs_lab.metrology.uncertainty.full_scale_factor import scale_factor_models
+from ahrs_lab.metrology.uncertainty.full_scale_factor import offset_model, scale_factor_model
 from ahrs_lab.metrology.uncertainty.gum_scale_factor import ScaleFactorEvidence, scale_factor_uncertainty
 from ahrs_lab.metrology.uncertainty.noise import standard_error
 from ahrs_lab.procedures.reduction_evidence import Evidence, axis_batches
@@ -140,14 +141,17 @@ def _result(evidence: Evidence, axis: Axis, groups: _Groups) -> ScaleFactorResul
         time_scaled=output.source != "rate",
     )
     unit = scale_factor_unit(output.unit)
+    budget_F0 = check_by_monte_carlo(
+        budget_F0, fit.F0, partial(offset_model, fit, budget_F0), evidence.monte_carlo, f"F0_{axis}"
+    )
     if evidence.method == "annex-a":
         fastest = max(abs(rate) for rate in rates)
         scatter = math.sqrt(sum(row.contribution**2 for row in budget.rows if row.kind == "A"))
         budget = evidence.annex_a(fit.K, unit, fastest, evidence.acquisition_bits(axis), [scatter])
     else:
-        of_K, of_F0 = scale_factor_models(fit, budget, budget_F0)
-        budget = check_by_monte_carlo(budget, fit.K, of_K, evidence.monte_carlo, f"K_{axis}")
-        budget_F0 = check_by_monte_carlo(budget_F0, fit.F0, of_F0, evidence.monte_carlo, f"F0_{axis}")
+        budget = check_by_monte_carlo(
+            budget, fit.K, partial(scale_factor_model, fit, budget), evidence.monte_carlo, f"K_{axis}"
+        )
     return ScaleFactorResult(
         axis=axis,
         K=fit.K,

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -202,7 +203,7 @@ def _result(
         repeated = [row.contribution for row in budget.rows if row.symbol.startswith("N_")]
         budget = evidence.annex_a(B, "deg/s", math.inf, evidence.acquisition_bits(axis), repeated)
     else:
-        model = zero_offset_model(B, recorded, budget)
+        model = partial(zero_offset_model, B, recorded, budget)
         budget = check_by_monte_carlo(budget, B, model, evidence.monte_carlo, f"B_{axis}")
     return ZeroOffsetResult(
         axis=axis,

@@ -24,7 +24,7 @@ from ahrs_lab.metrology.uncertainty.full_model import (
     linear_part,
     meaningful_digits,
 )
-from ahrs_lab.metrology.uncertainty.full_scale_factor import BandSums, scale_factor_models
+from ahrs_lab.metrology.uncertainty.full_scale_factor import BandSums, offset_model, scale_factor_model
 from ahrs_lab.metrology.uncertainty.full_zero_offset import rotated, zero_offset_model
 from ahrs_lab.metrology.uncertainty.gum_misalignment import misalignment_uncertainty
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence, zero_offset_uncertainty
@@ -116,7 +116,7 @@ def test_the_slopes_of_K_and_F0_are_the_sensitivities_of_their_budgets(rate_sour
     fit = fit_scale_factor(RATES, MEANS, 0.001, 0.002)
     evidence = replace(rates_evidence(), noise=DRIFTING, resolution=1e-3)
     budget, budget_F0 = budgets(fit, evidence, rate_source, time_scaled=True)
-    K, F0 = scale_factor_models(fit, budget, budget_F0)
+    K, F0 = scale_factor_model(fit, budget), offset_model(fit, budget_F0)
     # ε acts by its cosine, whose slope at 0 is 0; its row takes the secant
     assert_slopes_are_sensitivities(K, budget, fit.K, 1e-6, but="ε")
     assert_slopes_are_sensitivities(F0, budget_F0, fit.F0, 1e-6)
@@ -170,8 +170,7 @@ def test_K_is_distributed_as_lines_refitted_one_by_one() -> None:
     bench = replace(BENCH, rate_relative=(0.05, 0.02, 5e-6))
     fit = fit_scale_factor(RATES, 1.01 * RATES, 0.0, 0.0)
     evidence = rates_evidence(2e-3)
-    budget, budget_F0 = budgets(fit, evidence, bench=bench)
-    K, _ = scale_factor_models(fit, budget, budget_F0)
+    K = scale_factor_model(fit, budgets(fit, evidence, bench=bench)[0])
     found = propagate(K.inputs, K.evaluate, seed=1, trials=100_000)
     rng = np.random.default_rng(3)
     band = np.digitize(np.abs(RATES), [1.0, 10.0])
@@ -235,7 +234,7 @@ def test_digits_are_such_that_the_tolerance_is_a_few_percent_of_u() -> None:
 def linear_check(*rows: BudgetRow) -> Uncertainty:
     budget = combine(rows)
     model = FullModel(tuple(linear_part(budget.rows)), (), lambda x: np.asarray(x.sum(axis=0)))
-    return check_by_monte_carlo(budget, 0.0, model, MonteCarloSettings("bundle"), "K_x")
+    return check_by_monte_carlo(budget, 0.0, lambda: model, MonteCarloSettings("bundle"), "K_x")
 
 
 def test_a_normal_budget_is_validated_and_one_broad_rectangle_is_not() -> None:

@@ -67,7 +67,7 @@ def test_9_2_4_rectangular_quantities_one_of_them_ten_times_as_wide() -> None:
 def test_9_3_mass_calibration() -> None:
     """δm in mg. First order: 1.2340, u = 0.0539, [1.1285, 1.3395]: not validated; with the terms of second
     order u = 0.0750, [1.0870, 1.3810]: validated. Trials: u = 0.0754, [1.0834, 1.3825]; δ = 0.005."""
-    inputs = [
+    inputs: list[Input] = [
         Normal(100_000.000, 0.050),
         Normal(1.234, 0.020),
         Rectangular(1.20, 0.10),
@@ -76,7 +76,7 @@ def test_9_3_mass_calibration() -> None:
     ]
 
     def model(x: Array) -> Array:
-        """(36), with the nominal mass of 100 g taken off."""
+        """Conventional mass less the nominal 100 g."""
         return np.asarray((x[0] + x[1]) * (1.0 + (x[2] - 1.2) * (1.0 / x[3] - 1.0 / x[4])) - 1e5)
 
     found = run(inputs, model)
@@ -92,7 +92,7 @@ def test_9_3_mass_calibration() -> None:
 
 @pytest.mark.parametrize(
     ("x1", "r", "mean", "standard", "interval", "gum"),
-    # all 1e-6; tables 7 to 9; the first-order interval of 9.4 is y ± 1.96·2·x₁·u
+    # all 1e-6; the first-order interval is y ± 1.96·2·x₁·u
     [
         (0.000, 0.0, 50, 50, (0, 150), (0, 0)),
         (0.010, 0.0, 150, 112, (0, 367), (-96, 296)),
@@ -118,7 +118,7 @@ def test_9_4_comparison_loss_in_microwave_power_meter_calibration(
 def test_9_5_gauge_block() -> None:
     """δL in nm, 99 %: 838, u = 36, [745, 932] of the trials; 838, u = 32, [745, 931] of the GUM: validated
     with δ = 5."""
-    inputs = [
+    inputs: list[Input] = [
         StudentT(50_000_623.0, 25.0, 18.0),
         StudentT(215.0, 6.0, 24.0),
         StudentT(0.0, 4.0, 5.0),
@@ -131,14 +131,9 @@ def test_9_5_gauge_block() -> None:
     ]
 
     def model(x: Array) -> Array:
-        """(47) with D = D₀ + d₁ + d₂ and Θ = Θ₀ + Δ."""
-        length, alpha, theta = x[0], x[4], x[5] + x[6]
-        comparison = x[1] + x[2] + x[3]
-        return np.asarray(
-            (length * (1.0 + alpha * (theta - x[8])) + comparison - length * (1.0 + (alpha + x[7]) * theta))
-            + length
-            - 5e7
-        )
+        """L_S + D − L_S·(δα·Θ + α_S·δΘ) less the nominal 50 mm."""
+        length, comparison, theta = x[0], x[1] + x[2] + x[3], x[5] + x[6]
+        return np.asarray(length - 5e7 + comparison - length * (x[7] * theta + x[4] * x[8]))
 
     found = run(inputs, model, probability=0.99)
     assert found.mean == pytest.approx(838.0, abs=0.6)

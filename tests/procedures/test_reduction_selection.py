@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +12,15 @@ import pytest
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
-from ahrs_lab.procedures.reduction import reduce_recording
+from ahrs_lab.procedures import reduction
 from ahrs_lab.procedures.reduction_selection import select
 from ahrs_lab.recording.completeness import missing_segments
 from ahrs_lab.recording.finding import Finding, Kind
 from ahrs_lab.recording.read import RecordedSegment, Recording, read_bundle
 from tests.procedures.virtual_unit import VirtualUnit, changed, without
+
+reduce_recording = partial(reduction.reduce_recording, trials=0)
+"""Without the Monte Carlo check, which has tests of its own."""
 
 
 def spoilt(recorded: RecordedSegment, kind: Kind, line: int = 7) -> RecordedSegment:

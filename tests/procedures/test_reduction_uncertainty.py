@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import fields
+from functools import partial
 
 import numpy as np
 import pytest
@@ -12,8 +13,11 @@ from scipy.stats import binom, chi2
 
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.result import Uncertainty
-from ahrs_lab.procedures.reduction import reduce_recording
+from ahrs_lab.procedures import reduction
 from tests.procedures.virtual_unit import RATES, VirtualUnit
+
+reduce_recording = partial(reduction.reduce_recording, trials=0)
+"""Without the Monte Carlo check, which has tests of its own."""
 
 DENSITY = 2.5e-3
 """0.15 °/√h in °/√s."""
@@ -38,7 +42,7 @@ def ensemble() -> dict[str, list[tuple[float, Uncertainty]]]:
     found: dict[str, list[tuple[float, Uncertainty]]] = {"K": [], "F0": [], "B": [], "L": []}
     for _ in range(RUNS):
         recording = unit.recording([*unit.rates("x"), *unit.turns("x"), *unit.positions("x", 60.0)])
-        result = reduce_recording(recording, capability=PERFECT_BENCH, trials=0)
+        result = reduce_recording(recording, capability=PERFECT_BENCH)
         K, B, L = result.scale_factor["x"], result.zero_offset["x"], result.misalignment["yx"]
         assert K.F0_uncertainty is not None
         found["K"].append((K.K - 1.001, K.uncertainty))
@@ -104,9 +108,7 @@ def test_a_drifting_bias_enters_K_by_what_the_drift_is() -> None:
             level = float(path[-1])
             columns = recorded.samples.with_columns({"gyro_x": recorded.samples["gyro_x"] + path})
             drifting.append(type(recorded)(recorded.segment, columns, (), recorded.lines, 0, 0.1))
-        result = reduce_recording(unit.recording(drifting), capability=PERFECT_BENCH, trials=0).scale_factor[
-            "x"
-        ]
+        result = reduce_recording(unit.recording(drifting), capability=PERFECT_BENCH).scale_factor["x"]
         errors.append(result.K - 1.0)
         stated.append(next(row.contribution for row in result.uncertainty.rows if row.symbol == "D"))
     white = LIMITS["K"] ** 2

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,7 +23,7 @@ from ahrs_lab.metrology.uncertainty.distributions import (
     StudentT,
     triangular,
 )
-from ahrs_lab.metrology.uncertainty.monte_carlo import BLOCK, Model, propagate, validate
+from ahrs_lab.metrology.uncertainty.monte_carlo import Model, propagate, validate
 
 Array = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ LINEAR = ""
 """In place of a row's symbol: an input in the quantity's own unit that stands for linear rows."""
 MOST_TRIALS = 500_000
 """Limit of the adaptive procedure in a reduction. Twice the standard error of an interval's end is then
-0.0076 u, and δ is nowhere below 0.017 u: the verdict is no matter of chance."""
+0.0076 u, and δ is nowhere below 0.017 u: only what differs by about δ is a matter of chance."""
 
 
 @dataclass(frozen=True)
@@ -72,20 +72,27 @@ def meaningful_digits(standard: float) -> int:
 
 
 def check_by_monte_carlo(
-    budget: Uncertainty, value: float, model: FullModel, settings: MonteCarloSettings, quantity: str
+    budget: Uncertainty,
+    value: float,
+    make_model: Callable[[], FullModel],
+    settings: MonteCarloSettings,
+    quantity: str,
 ) -> Uncertainty:
-    """``budget`` with its Monte Carlo check. Without trials, without width or without bounds it stays as it
-    is: the first-order U is the reported one in any case."""
+    """``budget`` with its Monte Carlo check on the model made for it.
+
+    Without trials, without width or without bounds it stays as it is; the first-order U is the reported one
+    in any case.
+    """
     if settings.trials == 0 or budget.standard == 0.0 or not math.isfinite(value + budget.expanded):
         return budget
-    digits = meaningful_digits(budget.standard)
+    model, digits = make_model(), meaningful_digits(budget.standard)
     found = propagate(
         model.inputs,
         model.evaluate,
         seed=settings.seed(quantity),
         trials=settings.trials,
         digits=digits,
-        most=max(BLOCK, MOST_TRIALS),
+        most=MOST_TRIALS,
     )
     return replace(
         budget, monte_carlo=validate(found, value - budget.expanded, value + budget.expanded, digits)

@@ -60,22 +60,18 @@ class BandSums:
         return Line(K, self._output - K * mean, spread)
 
 
-def scale_factor_models(
-    fit: ScaleFactorFit, budget: Uncertainty, budget_F0: Uncertainty
-) -> tuple[FullModel, FullModel]:
-    """Models of K and of F₀ with the inputs of their budgets."""
-    return _K_model(fit, budget), _F0_model(fit, budget_F0)
-
-
 def _band_inputs(inputs: Inputs, fit: ScaleFactorFit, rows: list[BudgetRow]) -> list[int | None]:
     if not rows:  # rates as the table measured them
         return [None] * len(np.unique(bands_of(np.array(fit.rates_dps))))
     return [inputs.add(row) for row in rows]
 
 
-def _K_model(fit: ScaleFactorFit, budget: Uncertainty) -> FullModel:  # noqa: N802
-    """Noise of the means moves K by 1/√S of the rates that really were; the time base scales the rates, and
-    an axis inclined by ε both ways shows their cosine."""
+def scale_factor_model(fit: ScaleFactorFit, budget: Uncertainty) -> FullModel:
+    """Of K, with the inputs of its budget.
+
+    Noise of the means moves K by 1/√S of the rates that really were; the time base scales the rates, and an
+    axis inclined by ε both ways shows their cosine.
+    """
     inputs = Inputs(by_symbol(budget, *_MEANS))
     bands = _band_inputs(inputs, fit, by_symbol(budget, "Ω"))
     timing = [inputs.add(row) for row in by_symbol(budget, "t")]
@@ -94,7 +90,8 @@ def _K_model(fit: ScaleFactorFit, budget: Uncertainty) -> FullModel:  # noqa: N8
     return inputs.model(evaluate)
 
 
-def _F0_model(fit: ScaleFactorFit, budget: Uncertainty) -> FullModel:  # noqa: N802
+def offset_model(fit: ScaleFactorFit, budget: Uncertainty) -> FullModel:
+    """Of F₀, with the inputs of its budget."""
     inputs = Inputs(by_symbol(budget, *_MEANS, "β"))
     bands = _band_inputs(inputs, fit, by_symbol(budget, "Ω"))
     sums = BandSums(fit)

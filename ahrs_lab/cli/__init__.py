@@ -146,6 +146,12 @@ def _evaluation_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--job", type=Path, metavar="JOB.toml", help="job sheet whose standards' figures the budgets take"
     )
+    parser.add_argument(
+        "--trials",
+        type=int,
+        metavar="N",
+        help="of the Monte Carlo check of each uncertainty (as many as it needs; 0: without)",
+    )
 
 
 def _one_line(text: str) -> str:

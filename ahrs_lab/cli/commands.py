@@ -100,7 +100,9 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _settings(arguments: argparse.Namespace) -> EvaluationSettings:
-    return EvaluationSettings(rates=arguments.rates, uncertainty=arguments.uncertainty)
+    return EvaluationSettings(
+        rates=arguments.rates, uncertainty=arguments.uncertainty, trials=arguments.trials
+    )
 
 
 def _capability(arguments: argparse.Namespace) -> BenchCapability | None:

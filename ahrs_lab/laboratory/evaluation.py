@@ -20,10 +20,12 @@ MAXIMAL_RESULT_BYTES = 64 * 2**20
 
 @dataclass(frozen=True)
 class EvaluationSettings:
-    """What the person chooses: Ω from the demand or the table, and the method of uncertainty."""
+    """What the person chooses: Ω from the demand or the table, the method of uncertainty, and the trials of
+    its Monte Carlo check (None: as many as it needs; 0: without)."""
 
     rates: Literal["demanded", "table"] = "demanded"
     uncertainty: Literal["gum", "annex-a"] = "gum"
+    trials: int | None = None
 
 
 def evaluate_bundle(
@@ -43,6 +45,7 @@ def evaluate_bundle(
         uncertainty=settings.uncertainty,
         capability=capability,
         software=SOFTWARE,
+        trials=settings.trials,
     )
 
 

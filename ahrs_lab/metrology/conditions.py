@@ -62,7 +62,11 @@ class Standard:
 class BenchCapability:
     """Figures of the bench for the budget, all expanded (k = 2) unless said, and whether each is certified.
 
-    ``rate_relative`` per band (|Ω| < 1, < 10, ≤ 1000 °/s), relative; angles in the unit of their name.
+    ``rate_relative`` per band (|Ω| < 1, < 10, ≤ 1000 °/s), relative, one error for a whole band; angles in
+    the unit of their name. Leans hold for each of two directions: ``wobble_arcsec`` of the platform's normal
+    against the axis that it turns about, the same in every mounting; ``level_arcsec`` of the case's seat on
+    the platform, anew in each; ``fixture_perpendicularity_arcsec`` of each face. ``position_arcsec`` of each
+    stop against the one that north was laid to.
     """
 
     rate_relative: tuple[float, float, float] = (2e-2, 2e-3, 2e-4)

@@ -21,11 +21,14 @@ from ahrs_lab.metrology.result import (
     ResultWarning,
     ScaleFactorResult,
 )
+from ahrs_lab.metrology.uncertainty.full_model import MonteCarloSettings
+from ahrs_lab.metrology.uncertainty.monte_carlo import check_trials
 from ahrs_lab.procedures.reduction_diagnosis import diagnose
 from ahrs_lab.procedures.reduction_evidence import Evidence, RateSource
 from ahrs_lab.procedures.reduction_misalignment import reduce_misalignments
 from ahrs_lab.procedures.reduction_scale_factor import reduce_scale_factor
 from ahrs_lab.procedures.reduction_selection import select
+from ahrs_lab.procedures.reduction_validation import not_validated
 from ahrs_lab.procedures.reduction_zero_offset import reduce_zero_offsets
 from ahrs_lab.recording.orientation import AXES, Axis
 from ahrs_lab.recording.read import Recording
@@ -39,18 +42,23 @@ def reduce_recording(
     uncertainty: Method = "gum",
     capability: BenchCapability | None = None,
     software: str | None = None,
+    trials: int | None = None,
 ) -> CalibrationResult:
     """K, B and L with their uncertainties, of whatever the recording holds (JJF 1536 7.1 to 7.3).
 
     ``rates``: Ω as demanded, or as the table measured it (angle turned over time). ``capability``: the
     bench's figures for the type B terms, by default those that the recording names, else the assumptions of
-    :class:`BenchCapability`; the result's notes say which. The last take of a segment counts. Raises
-    InputError, with file and line, where a recorded segment does not reach the standard's minimum or nothing
-    can be evaluated; a quantity that lacks segments is left out and named in the warnings.
+    :class:`BenchCapability`; the result's notes say which. ``trials``: of the Monte Carlo check of each GUM
+    uncertainty; None as many as it needs, 0 without. The last take of a segment counts. Raises InputError,
+    with file and line, where a recorded segment does not reach the standard's minimum or nothing can be
+    evaluated; a quantity that lacks segments is left out and named in the warnings.
     """
     figures = capability or noted_capability(recording.header.notes) or BenchCapability()
+    if trials:
+        check_trials(trials)
+    settings = MonteCarloSettings(recording.sha256, trials)
     with np.errstate(over="ignore", invalid="ignore"):
-        result = _reduce(recording, rates, uncertainty, figures, software)
+        result = _reduce(recording, rates, uncertainty, figures, software, settings)
     _check_finite(result)
     return result
 
@@ -61,6 +69,7 @@ def _reduce(
     method: Method,
     capability: BenchCapability,
     software: str | None,
+    monte_carlo: MonteCarloSettings,
 ) -> CalibrationResult:
     selection = select(recording)
     header = recording.header
@@ -72,6 +81,7 @@ def _reduce(
         rate_source=rates,
         method=method,
         capability=capability,
+        monte_carlo=monte_carlo,
     )
     warnings: list[ResultWarning] = [*selection.warnings, *_run_warnings(recording)]
     scale_factors: dict[Axis, ScaleFactorResult] = {}
@@ -88,6 +98,7 @@ def _reduce(
         raise _nothing(warnings)
     diagnosis, said = diagnose(evidence, scale_factors, zero_offsets, misalignments)
     warnings += said
+    warnings += not_validated(scale_factors, zero_offsets, misalignments)
     return CalibrationResult(
         procedure=header.procedure,
         bundle_sha256=recording.sha256,

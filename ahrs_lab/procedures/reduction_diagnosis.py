@@ -32,6 +32,7 @@ from ahrs_lab.metrology.result import (
     MisalignmentResult,
     ResultWarning,
     ScaleFactorResult,
+    Uncertainty,
     ZeroOffsetResult,
 )
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
@@ -71,8 +72,11 @@ class _Looked:
 
     def error(self, takes: Sequence[Take], axis: Axis) -> tuple[float, float]:
         """Standard error of the mean of the takes' means, and its degrees of freedom; the output's unit."""
-        inflation = self.evidence.noise[axis].inflation
-        errors = [standard_error(self.batches(take, axis)[0], inflation) for take in takes]
+        noise = self.evidence.noise[axis]
+        errors = [
+            standard_error(self.batches(take, axis)[0], noise.inflation(take.output.duration_s))
+            for take in takes
+        ]
         return math.sqrt(sum(error**2 for error, _ in errors)) / len(takes), sum(dof for _, dof in errors)
 
 
@@ -141,12 +145,18 @@ def _scale_factor(looked: _Looked, result: ScaleFactorResult) -> ScaleFactorDiag
             resolution=evidence.resolution[axis].step,
             dithered=evidence.resolution[axis].dithered,
             noise=evidence.noise[axis],
+            latitude_deg=evidence.site.latitude_deg,
         ),
         segments=tuple(take.segment.name for take in at_rates),
         statics=(result.static_before, result.static_after),
         unit=at_rates[0].output.unit,
-        standard_K=result.uncertainty.standard,
+        scatter_share=_scatter_share(result.uncertainty),
     )
+
+
+def _scatter_share(budget: Uncertainty) -> float:
+    scatter = math.hypot(*(row.contribution for row in budget.rows if row.symbol == "v"))
+    return (scatter / budget.standard) ** 2 if scatter > 0.0 else 0.0
 
 
 def _mean_duration(takes: Sequence[Take]) -> float:

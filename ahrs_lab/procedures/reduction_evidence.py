@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.result import Method, Origin, Uncertainty
 from ahrs_lab.metrology.uncertainty.annex_a import annex_a_uncertainty
+from ahrs_lab.metrology.uncertainty.full_model import MonteCarloSettings
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel, batch_means, fit_noise, resolution_step
 from ahrs_lab.procedures.reduction_output import DeviceOutput
 from ahrs_lab.procedures.reduction_selection import Selection
@@ -46,6 +47,7 @@ class Evidence:
     rate_source: RateSource
     method: Method
     capability: BenchCapability
+    monte_carlo: MonteCarloSettings
 
     @cached_property
     def noise(self) -> dict[Axis, NoiseModel]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.misalignment import misalignment
@@ -12,6 +13,8 @@ from ahrs_lab.metrology.result import (
     ResultWarning,
     ScaleFactorResult,
 )
+from ahrs_lab.metrology.uncertainty.full_misalignment import misalignment_model
+from ahrs_lab.metrology.uncertainty.full_model import check_by_monte_carlo
 from ahrs_lab.metrology.uncertainty.gum_misalignment import MisalignmentEvidence, misalignment_uncertainty
 from ahrs_lab.procedures.reduction_evidence import Evidence
 from ahrs_lab.procedures.reduction_output import degrees_factor
@@ -125,30 +128,30 @@ def _result(
     )
     L = misalignment(angle_positive, angle_negative, turns)
     duration = _duration(positive)
-    budget = misalignment_uncertainty(
-        L,
-        MisalignmentEvidence(
-            turns=turns,
-            angle_positive_deg=angle_positive,
-            angle_negative_deg=angle_negative,
-            duration_positive_s=duration,
-            duration_negative_s=_duration(negative),
-            starts_s=(positive[0].start_s, negative[0].start_s),
-            repeats=min(len(positive), len(negative)),
-            samples=positive[0].output.samples,
-            resolution_dps=evidence.resolution[output].step * abs(factor),
-            dithered=evidence.resolution[output].dithered,
-            noise=evidence.noise[output].scaled(factor),
-            # what both recordings show alike: zero offset and Earth's rate
-            rest_rate_dps=0.5 * (angle_positive + angle_negative) / duration,
-            scale_relative=scale_relative,
-        ),
-        evidence.capability,
+    recorded = MisalignmentEvidence(
+        turns=turns,
+        angle_positive_deg=angle_positive,
+        angle_negative_deg=angle_negative,
+        duration_positive_s=duration,
+        duration_negative_s=_duration(negative),
+        starts_s=(positive[0].start_s, negative[0].start_s),
+        repeats=min(len(positive), len(negative)),
+        samples=positive[0].output.samples,
+        resolution_dps=evidence.resolution[output].step * abs(factor),
+        dithered=evidence.resolution[output].dithered,
+        noise=evidence.noise[output].scaled(factor),
+        # what both recordings show alike: zero offset and Earth's rate
+        rest_rate_dps=0.5 * (angle_positive + angle_negative) / duration,
+        scale_relative=scale_relative,
     )
+    budget = misalignment_uncertainty(L, recorded, evidence.capability)
     rate = abs(positive[0].segment.rate_dps)
     if evidence.method == "annex-a":
         repeated = [row.contribution for row in budget.rows if row.symbol in ("N⁺", "N⁻")]
         budget = evidence.annex_a(L, "rad", rate, evidence.acquisition_bits(output), repeated)
+    else:
+        model = partial(misalignment_model, L, recorded, budget)
+        budget = check_by_monte_carlo(budget, L, model, evidence.monte_carlo, f"L_{output}{turned}")
     return MisalignmentResult(
         output_axis=output,
         turned_axis=turned,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import AVERAGING_ANGLES_DEG, rate_band
 from ahrs_lab.metrology.result import ResultWarning, ScaleFactorResult
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
+from ahrs_lab.metrology.uncertainty.full_model import check_by_monte_carlo
+from ahrs_lab.metrology.uncertainty.full_scale_factor import offset_model, scale_factor_model
 from ahrs_lab.metrology.uncertainty.gum_scale_factor import ScaleFactorEvidence, scale_factor_uncertainty
 from ahrs_lab.metrology.uncertainty.noise import standard_error
 from ahrs_lab.procedures.reduction_evidence import Evidence, axis_batches
@@ -138,10 +141,17 @@ def _result(evidence: Evidence, axis: Axis, groups: _Groups) -> ScaleFactorResul
         time_scaled=output.source != "rate",
     )
     unit = scale_factor_unit(output.unit)
+    budget_F0 = check_by_monte_carlo(
+        budget_F0, fit.F0, partial(offset_model, fit, budget_F0), evidence.monte_carlo, f"F0_{axis}"
+    )
     if evidence.method == "annex-a":
         fastest = max(abs(rate) for rate in rates)
         scatter = math.sqrt(sum(row.contribution**2 for row in budget.rows if row.kind == "A"))
         budget = evidence.annex_a(fit.K, unit, fastest, evidence.acquisition_bits(axis), [scatter])
+    else:
+        budget = check_by_monte_carlo(
+            budget, fit.K, partial(scale_factor_model, fit, budget), evidence.monte_carlo, f"K_{axis}"
+        )
     return ScaleFactorResult(
         axis=axis,
         K=fit.K,
@@ -180,13 +190,17 @@ def _budget_input(
         resolution=evidence.resolution[axis].step,
         dithered=evidence.resolution[axis].dithered,
         noise=evidence.noise[axis],
+        latitude_deg=evidence.site.latitude_deg,
     )
 
 
 def _mean(evidence: Evidence, takes: Sequence[Take], axis: Axis) -> _Mean:
     """(10) for one recording; of several the mean of their means."""
-    inflation = evidence.noise[axis].inflation
-    errors = [standard_error(axis_batches(take.output, axis)[0], inflation) for take in takes]
+    noise = evidence.noise[axis]
+    errors = [
+        standard_error(axis_batches(take.output, axis)[0], noise.inflation(take.output.duration_s))
+        for take in takes
+    ]
     count = len(takes)
     return _Mean(
         value=sum(take.output.mean(axis) for take in takes) / count,

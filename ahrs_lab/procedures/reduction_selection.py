@@ -71,7 +71,7 @@ def select(recording: Recording) -> Selection:
         if finding.severity == "unusable" and not finding.segment
     }
     takes: list[Take] = []
-    end_s = 0.0
+    end_s, clock_s = 0.0, 0.0
     for recorded in recording.segments:
         if recorded.segment.superseded or recorded.segment.interrupted:
             continue
@@ -79,8 +79,10 @@ def select(recording: Recording) -> Selection:
             continue
         output = device_output(recorded.samples, recording.header.device)
         first_s = float(recorded.samples["t_s"][0]) - output.step_s
-        # the device's clock where it runs on; else one segment after the other
-        start_s = max(first_s, end_s) if first_s > 0.5 * output.step_s else end_s
+        # the device's clock where it runs on; else (power was off, or it starts anew) what is next follows
+        if first_s <= 0.5 * output.step_s or first_s + clock_s < end_s:
+            clock_s = end_s - first_s
+        start_s = first_s + clock_s
         end_s = start_s + output.duration_s
         takes.append(Take(recorded.segment, recorded.samples, output, start_s))
     return Selection(tuple(takes), tuple(warnings), frozenset(lacking))

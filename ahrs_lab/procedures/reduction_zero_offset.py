@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -14,6 +15,8 @@ from numpy.typing import NDArray
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.result import ResultWarning, ScaleFactorResult, ZeroOffsetResult
+from ahrs_lab.metrology.uncertainty.full_model import check_by_monte_carlo
+from ahrs_lab.metrology.uncertainty.full_zero_offset import zero_offset_model
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence, zero_offset_uncertainty
 from ahrs_lab.metrology.zero_offset import azimuth_harmonic, zero_offset
 from ahrs_lab.procedures.reduction_evidence import Evidence
@@ -194,14 +197,14 @@ def _result(
     B = zero_offset(angles, durations)
     duration = float(durations.mean())
     repeatability, cycles = _repeatability(evidence, axis, positions, factor, duration)
-    budget = zero_offset_uncertainty(
-        B,
-        _budget_input(evidence, axis, positions, angles, durations, factor, scale_relative),
-        evidence.capability,
-    )
+    recorded = _budget_input(evidence, axis, positions, angles, durations, factor, scale_relative)
+    budget = zero_offset_uncertainty(B, recorded, evidence.capability)
     if evidence.method == "annex-a":
         repeated = [row.contribution for row in budget.rows if row.symbol.startswith("N_")]
         budget = evidence.annex_a(B, "deg/s", math.inf, evidence.acquisition_bits(axis), repeated)
+    else:
+        model = partial(zero_offset_model, B, recorded, budget)
+        budget = check_by_monte_carlo(budget, B, model, evidence.monte_carlo, f"B_{axis}")
     return ZeroOffsetResult(
         axis=axis,
         B=B,
@@ -287,14 +290,14 @@ def _budget_input(
 
 
 def _turned(positions: Sequence[_Position]) -> Array:
-    """How far the table was turned from the first position of the same mounting, degrees."""
+    """The table's azimuth, degrees; where it was not recorded, from the mounting's first position on."""
     first: dict[str, _Position] = {}
     turned = []
     for position in positions:
         reference = first.setdefault(position.orientation.face, position)
         quarters = position.orientation.azimuth_from(reference.orientation)
         given = position.takes[0].segment.azimuth_deg is not None
-        turned.append(position.azimuth_deg - reference.azimuth_deg if given else quarters)
+        turned.append(position.azimuth_deg if given else quarters)
     return np.array(turned)
 
 

@@ -96,7 +96,12 @@ def test_the_trend_is_the_coefficient_of_the_fit_with_time_in_it() -> None:
 
 
 def scale_factor(
-    rng: np.random.Generator, *, sigma: float = 1e-3, off: Array | float = 0.0, drift: float = 0.0
+    rng: np.random.Generator,
+    *,
+    sigma: float = 1e-3,
+    off: Array | float = 0.0,
+    drift: float = 0.0,
+    scatter_share: float = 0.0,
 ) -> ScaleFactorDiagnosis:
     """Ten rates of twenty one-second means, rests of sixty; ``off`` is added to the means of the rates."""
     recordings = rng.normal(0.0, sigma, (10, 20))
@@ -119,6 +124,7 @@ def scale_factor(
         resolution=1e-5,
         dithered=True,
         noise=NoiseModel(white=sigma),
+        latitude_deg=40.0,
     )
     return diagnose_scale_factor(
         fit,
@@ -126,7 +132,7 @@ def scale_factor(
         segments=tuple(f"sf_x_{place}" for place in range(10)),
         statics=statics,
         unit="deg/s",
-        standard_K=1e-4,
+        scatter_share=scatter_share,
     )
 
 

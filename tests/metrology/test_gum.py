@@ -9,39 +9,30 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
+from ahrs_lab.metrology.conditions import ARCSEC
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
-from ahrs_lab.metrology.uncertainty.gum_misalignment import MisalignmentEvidence, misalignment_uncertainty
-from ahrs_lab.metrology.uncertainty.gum_scale_factor import ScaleFactorEvidence, scale_factor_uncertainty
-from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence, zero_offset_uncertainty
+from ahrs_lab.metrology.uncertainty.gum_misalignment import misalignment_uncertainty
+from ahrs_lab.metrology.uncertainty.gum_scale_factor import scale_factor_uncertainty
+from ahrs_lab.metrology.uncertainty.gum_zero_offset import zero_offset_uncertainty
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel
-
-EARTH_DPS = math.degrees(7.292115e-5)
-LATITUDE = 40.0
-E, N, U = np.eye(3)
-BENCH = BenchCapability()
+from tests.metrology.evidence import (
+    BENCH,
+    EARTH_DPS,
+    LATITUDE,
+    RATES,
+    E,
+    N,
+    U,
+    four_positions,
+    rates_evidence,
+    scale_factor,
+    turns,
+)
 
 
 def row(found: Uncertainty, symbol: str) -> BudgetRow:
     return next(entry for entry in found.rows if entry.symbol == symbol)
-
-
-def four_positions(directions: tuple[np.ndarray, ...] = (E, E, -E, -E)) -> ZeroOffsetEvidence:
-    """Table 2: 1 and 3 on one mounting, 2 and 4 on the other."""
-    return ZeroOffsetEvidence(
-        directions=np.array(directions),
-        turned_deg=np.array([0.0, 0.0, 180.0, 180.0]),
-        mountings=("z+", "z-", "z+", "z-"),
-        angles_deg=np.zeros(4),
-        durations_s=np.full(4, 1800.0),
-        repeats=np.ones(4),
-        samples=np.full(4, 18000.0),
-        resolution_dps=0.0,
-        dithered=True,
-        noise=NoiseModel(white=2.5e-3, white_dof=100.0),
-        latitude_deg=LATITUDE,
-    )
 
 
 def test_an_azimuth_error_of_the_stops_leaves_the_horizontal_rate_over_root_eight() -> None:
@@ -50,11 +41,21 @@ def test_an_azimuth_error_of_the_stops_leaves_the_horizontal_rate_over_root_eigh
     assert found.standard_uncertainty == pytest.approx(5.0 * ARCSEC)
 
 
-def test_a_tilt_of_the_case_leaves_the_vertical_rate() -> None:
+def test_a_tilt_that_every_mounting_has_leaves_the_vertical_rate() -> None:
+    """The platform's lean is common to the mountings; seat and face are each mounting's own."""
     found = zero_offset_uncertainty(0.0, four_positions(), BENCH)
     vertical = EARTH_DPS * math.sin(math.radians(LATITUDE))
-    assert row(found, "β").sensitivity == pytest.approx(vertical)
+    assert row(found, "w").sensitivity == pytest.approx(vertical)
+    assert row(found, "β").sensitivity == pytest.approx(vertical / math.sqrt(2.0))
     assert row(found, "γ").sensitivity == pytest.approx(vertical / math.sqrt(2.0))
+
+
+def test_a_lean_of_the_platform_counts_by_where_the_table_stood() -> None:
+    """Had the other mounting's positions been turned to from the other side, the lean would cancel."""
+    turned = np.array([0.0, 180.0, 180.0, 0.0])
+    found = zero_offset_uncertainty(0.0, replace(four_positions(), turned_deg=turned), BENCH)
+    assert row(found, "w").contribution == 0.0
+    assert row(found, "β").contribution > 0.0
 
 
 @pytest.mark.parametrize("directions", [(E, E, -E, -E), (N, -N, -N, N), (U, -U, U, -U)])
@@ -70,7 +71,8 @@ def test_the_noise_of_four_positions_is_half_the_density_over_root_T() -> None:
         2.5e-3 / (2.0 * math.sqrt(1800.0))
     )
     assert {entry.sensitivity for entry in noise} == {1.0 / 7200.0}
-    assert found.dof == pytest.approx(400.0, rel=0.05)
+    # four positions, but one estimate of the density: its degrees of freedom count once
+    assert found.dof == pytest.approx(100.0, rel=0.05)
 
 
 def test_counts_bring_the_uncertainty_of_their_scale_factor() -> None:
@@ -88,32 +90,8 @@ def test_the_sensitivities_are_those_of_a_tilted_case() -> None:
         # a seat tilted about the table's own "north" axis
         axis = np.array([-math.sin(math.radians(turned)), math.cos(math.radians(turned)), 0.0])
         felt.append((direction + tilt * np.cross(axis, direction)) @ omega)
-    found = row(zero_offset_uncertainty(0.0, evidence, BENCH), "β")
+    found = row(zero_offset_uncertainty(0.0, evidence, BENCH), "w")
     assert abs(float(np.mean(felt))) / tilt == pytest.approx(found.sensitivity, rel=1e-9)
-
-
-RATES = np.array([-300.0, -200.0, -5.0, -0.5, 0.5, 5.0, 200.0, 310.0])
-
-
-def scale_factor(noise: float = 1e-3, rate_source: str = "demanded") -> Uncertainty:
-    count = len(RATES)
-    fit = fit_scale_factor(RATES, 1.01 * RATES, 0.0, 0.0)
-    evidence = ScaleFactorEvidence(
-        standard_errors=np.full(count, noise),
-        dofs=np.full(count, 19.0),
-        durations_s=np.full(count, 30.0),
-        starts_s=np.linspace(60.0, 30.0 + 30.0 * count, count),
-        rest_standard_errors=(noise, noise),
-        rest_dofs=(39.0, 39.0),
-        rest_durations_s=(60.0, 60.0),
-        rest_starts_s=(0.0, 300.0),
-        samples=np.full(count, 300.0),
-        resolution=0.0,
-        dithered=True,
-        noise=NoiseModel(),
-    )
-    found, _ = scale_factor_uncertainty(fit, evidence, BENCH, device_unit="deg/s", rate_source=rate_source)  # type: ignore[arg-type]
-    return found
 
 
 def test_the_noise_of_K_is_that_of_the_regression() -> None:
@@ -144,21 +122,52 @@ def test_measured_rates_replace_the_tables_rate_by_its_angle_and_time() -> None:
     assert row(found, "θ").contribution == pytest.approx(1.01 * each / math.sqrt(spread))
 
 
-def turns() -> MisalignmentEvidence:
-    return MisalignmentEvidence(
-        turns=10,
-        angle_positive_deg=3.6,
-        angle_negative_deg=-3.6,
-        duration_positive_s=36.0,
-        duration_negative_s=36.0,
-        starts_s=(0.0, 40.0),
-        repeats=1,
-        samples=360,
-        resolution_dps=0.0,
-        dithered=True,
-        noise=NoiseModel(white=2.5e-3, white_dof=100.0),
-        rest_rate_dps=0.0,
+def scatter_beyond(extra: np.ndarray, noise: NoiseModel | None = None) -> float:
+    """u of the row v, where the means lie off the line by ``extra``."""
+    evidence = replace(rates_evidence(1e-5), noise=noise or NoiseModel())
+    fit = fit_scale_factor(RATES, RATES + extra, 0.0, 0.0)
+    found, _ = scale_factor_uncertainty(fit, evidence, BENCH, device_unit="deg/s", rate_source="demanded")
+    return row(found, "v").standard_uncertainty
+
+
+def test_a_smooth_nonlinearity_is_no_scatter_of_K() -> None:
+    """K is the slope through the response at the rates run: what bends is stated in ppm, not in U."""
+    relative = RATES / 300.0
+    assert scatter_beyond(0.01 * relative**3 - 0.02 * relative**2 + 0.005 * np.abs(relative)) == 0.0
+
+
+def test_scatter_about_the_curve_is_found() -> None:
+    rng = np.random.default_rng(8)
+    squares = [scatter_beyond(rng.normal(0.0, 1e-3, len(RATES))) ** 2 for _ in range(400)]
+    assert float(np.mean(squares)) == pytest.approx(1e-6, rel=0.2)
+
+
+def test_noise_and_drift_are_not_counted_again_as_scatter() -> None:
+    rng = np.random.default_rng(9)
+    assert np.mean([scatter_beyond(rng.normal(0.0, 1e-5, len(RATES))) > 0.0 for _ in range(400)]) < 0.1
+    walk = 1e-3
+    steps = [np.cumsum(rng.normal(0.0, walk * math.sqrt(30.0), len(RATES))) for _ in range(400)]
+    found = [scatter_beyond(path, NoiseModel(walk=walk)) > 0.0 for path in steps]
+    # means of a walk, not its values at single times, are what the drift's formula is of
+    assert np.mean(found) < 0.15
+
+
+def test_a_leaning_case_feels_the_horizontal_rate_at_rest_but_not_at_the_rates() -> None:
+    fit = fit_scale_factor(RATES, 1.01 * RATES, 0.0, 0.0)
+    _, found = scale_factor_uncertainty(
+        fit, rates_evidence(), BENCH, device_unit="deg/s", rate_source="demanded"
     )
+    lean = 0.5 * math.sqrt(20.0**2 + 5.0**2 + 2.0**2) * ARCSEC
+    horizontal = EARTH_DPS * math.cos(math.radians(LATITUDE))
+    assert row(found, "β").contribution == pytest.approx(1.01 * lean * horizontal)
+
+
+def test_the_cosine_of_a_lean_in_two_directions_has_its_root_mean_square() -> None:
+    lean = 0.5 * math.sqrt(20.0**2 + 5.0**2 + 2.0**2) * ARCSEC
+    drawn = np.random.default_rng(10).normal(0.0, lean, (2, 200_000))
+    lost = 0.5 * (drawn**2).sum(axis=0)
+    stated = row(scale_factor(), "ε").contribution
+    assert stated == pytest.approx(1.01 * math.sqrt(float(np.mean(lost**2))), rel=0.02)
 
 
 def test_the_noise_of_L_is_the_density_over_root_720_n_rate() -> None:

@@ -23,10 +23,10 @@ NBS14 = np.array([892.0, 809.0, 823.0, 798.0, 671.0, 644.0, 883.0, 903.0, 677.0]
 
 
 def test_the_allan_variance_is_that_of_nist_sp_1065() -> None:
-    taus, variances, counts = _pooled_allan([NBS14], 1.0)
+    taus, variances, dofs = _pooled_allan([NBS14], 1.0)
     assert taus[:2].tolist() == [1.0, 2.0]
     assert np.sqrt(variances[:2]) == pytest.approx([91.22945, 115.8082], rel=1e-6)
-    assert counts[:2].tolist() == [8.0, 3.0]
+    assert dofs[:2].tolist() == [4.0, 2.0]
     assert neighbour_variance(NBS14)[0] == pytest.approx(91.22945**2, rel=1e-6)
 
 
@@ -57,9 +57,37 @@ def test_offsets_between_recordings_are_no_noise() -> None:
 def test_white_noise_has_its_density() -> None:
     rng = np.random.default_rng(2)
     found = fit_noise([rng.normal(0.0, 2e-3, 1800) for _ in range(4)], 1.0)
-    # 4 × 1800 one-second means: the relative error of N is 1/√(2·4800)
-    assert found.white == pytest.approx(2e-3, rel=4.0 / math.sqrt(2 * 4800))
-    assert found.white_dof == pytest.approx(4800, rel=0.01)
+    # flicker, fitted beside, takes its part of the 7200 one-second means' degrees of freedom
+    assert 4000.0 < found.white_dof < 7200.0
+    assert found.white == pytest.approx(2e-3, rel=4.0 / math.sqrt(2 * found.white_dof))
+
+
+def test_estimates_of_white_noise_scatter_about_it_as_their_degrees_of_freedom_say() -> None:
+    rng = np.random.default_rng(6)
+    found = [fit_noise([rng.normal(0.0, 1.0, 600) for _ in range(6)], 1.0) for _ in range(200)]
+    squares = np.array([one.white**2 for one in found])
+    assert squares.mean() == pytest.approx(1.0, abs=0.01)
+    stated = math.sqrt(float(np.mean([2.0 / one.white_dof for one in found])))
+    assert squares.std() == pytest.approx(stated, rel=0.3)
+
+
+def test_noise_of_the_angle_does_not_count_as_noise_of_the_rate() -> None:
+    """0.5″ at each end of a second are forty times the white noise of a navigation grade there."""
+    rng = np.random.default_rng(7)
+    white, angle = 3.3e-5, 1.4e-4
+
+    def dwell(seconds: int) -> np.ndarray:
+        return rng.normal(0.0, white, seconds) + np.diff(rng.normal(0.0, angle, seconds + 1))
+
+    found = fit_noise([dwell(1800) for _ in range(4)], 1.0)
+    assert found.quantisation == pytest.approx(angle, rel=0.03)
+    assert found.white == pytest.approx(white, rel=0.3)
+    means = np.array([dwell(20).mean() for _ in range(2000)])
+    stated = np.array([standard_error(dwell(20), found.inflation(20.0))[0] for _ in range(200)])
+    assert math.sqrt(float(np.mean(stated**2))) == pytest.approx(float(means.std()), rel=0.1)
+    assert found.angle_variance(20.0) == pytest.approx(float(means.var()) * 400.0, rel=0.2)
+    naive = standard_error(dwell(20))[0]
+    assert naive > 2.5 * means.std()
 
 
 def test_a_random_walk_is_told_from_white_noise() -> None:
@@ -86,7 +114,7 @@ def test_an_output_correlated_over_seconds_has_the_uncertainty_of_its_long_mean(
         dwells.append(out[100:])
     found = fit_noise(dwells, 1.0)
     naive, _ = standard_error(dwells[0])
-    stated, _ = standard_error(dwells[0], found.inflation)
+    stated, _ = standard_error(dwells[0], found.inflation(len(dwells[0])))
     truth = density / math.sqrt(len(dwells[0]))
     assert naive < 0.5 * truth
     assert stated == pytest.approx(truth, rel=0.15)
@@ -100,7 +128,8 @@ def test_no_noise_is_no_noise(dwells: list[np.ndarray]) -> None:
 
 def test_short_recordings_say_nothing_of_drift() -> None:
     found = fit_noise([np.random.default_rng(5).normal(0.0, 1.0, 20)], 1.0)
-    assert (found.flicker, found.walk, found.drift_dof) == (0.0, 0.0, math.inf)
+    assert (found.flicker, found.walk, found.quantisation) == (0.0, 0.0, 0.0)
+    assert drift_variance(np.array([1.0, -1.0]), np.arange(2.0), np.ones(2), found) == (0.0, math.inf)
     assert found.white > 0.0
 
 
@@ -122,7 +151,8 @@ def test_drift_of_a_weighted_sum_is_that_of_the_covariance() -> None:
     average = np.kron(np.eye(count), np.full((1, steps), 1.0 / steps))
     covariance = (average @ lower) @ (average @ lower).T
     weights = np.array([0.5, -1.0, 1.5, -1.0])
-    found = drift_variance(weights, np.arange(4.0), np.ones(4), NoiseModel(walk=walk))
+    found, dof = drift_variance(weights, np.arange(4.0), np.ones(4), NoiseModel(walk=walk))
+    assert dof == math.inf
     assert found == pytest.approx(float(weights @ covariance @ weights), rel=5e-3)
 
 
@@ -132,9 +162,23 @@ def test_pairs_of_rates_suffer_less_from_drift_than_a_sweep() -> None:
     noise = NoiseModel(flicker=1.0)
     starts, durations = np.arange(10.0) * 20.0, np.full(10, 20.0)
     spread = float((sweep**2).sum())
-    assert drift_variance(pairs / spread, starts, durations, noise) < 0.5 * drift_variance(
-        sweep / spread, starts, durations, noise
+    of_pairs, of_sweep = (
+        drift_variance(rates / spread, starts, durations, noise)[0] for rates in (pairs, sweep)
     )
+    assert of_pairs < 0.5 * of_sweep
+    both = drift_variance(np.array([pairs, sweep]) / spread, starts, durations, noise)[0]
+    assert both == pytest.approx(of_pairs + of_sweep)
+
+
+def test_drift_is_known_as_well_as_its_coefficients() -> None:
+    """Var(B²) of 0.02·B⁴: two over it are the degrees of freedom, in any unit."""
+    covariance = np.zeros((4, 4))
+    covariance[2, 2] = 0.02
+    noise = NoiseModel(flicker=1.0, covariance=tuple(map(tuple, covariance.tolist())))
+    for known in (noise, noise.scaled(-3.0)):
+        variance, dof = drift_variance(np.array([1.0, -1.0]), np.arange(2.0), np.ones(2), known)
+        assert dof == pytest.approx(100.0)
+        assert variance == pytest.approx(known.flicker**2 * 4.0 * math.log(2.0) / math.pi)
 
 
 def test_the_resolution_is_the_smallest_step() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import statistics
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +15,13 @@ from hypothesis import strategies as st
 from ahrs_lab.certificates.charts import position_blocks
 from ahrs_lab.certificates.documents import Chart
 from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, ZeroOffsetResult
-from ahrs_lab.procedures.reduction import reduce_recording
+from ahrs_lab.procedures import reduction
 from ahrs_lab.recording.orientation import AXES
 from ahrs_lab.recording.read import RecordedSegment, read_bundle
 from tests.procedures.virtual_unit import EARTH_DPS, VirtualUnit, changed, without
+
+reduce_recording = partial(reduction.reduce_recording, trials=0)
+"""Without the Monte Carlo check, which has tests of its own."""
 
 SAMPLE = {
     "K": {"x": 1.0023354972170277, "y": 0.9981303779047173, "z": 1.0007446457794191},
@@ -68,6 +72,8 @@ def test_the_sample_shows_the_noise_it_was_made_with(shared: Path) -> None:
         )
 
 
+@pytest.mark.slow
+@pytest.mark.timeout(600)
 def test_a_thousand_random_noiseless_units_are_recovered() -> None:
     rng = np.random.default_rng(1536)
     for _ in range(1000):

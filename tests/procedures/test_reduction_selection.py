@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +12,15 @@ import pytest
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
-from ahrs_lab.procedures.reduction import reduce_recording
+from ahrs_lab.procedures import reduction
+from ahrs_lab.procedures.reduction_selection import select
 from ahrs_lab.recording.completeness import missing_segments
 from ahrs_lab.recording.finding import Finding, Kind
 from ahrs_lab.recording.read import RecordedSegment, Recording, read_bundle
 from tests.procedures.virtual_unit import VirtualUnit, changed, without
+
+reduce_recording = partial(reduction.reduce_recording, trials=0)
+"""Without the Monte Carlo check, which has tests of its own."""
 
 
 def spoilt(recorded: RecordedSegment, kind: Kind, line: int = 7) -> RecordedSegment:
@@ -259,3 +264,18 @@ def test_notes_that_are_no_notes_are_refused(notes: dict[str, object]) -> None:
     unit = VirtualUnit()
     with pytest.raises(InputError, match=r"environment|deviations"):
         reduce_recording(unit.recording(unit.positions("x"), **notes))
+
+
+def test_pauses_between_recordings_count_also_after_the_power_was_off() -> None:
+    """The device's clock starts anew with each power-on; drift goes by the time between its recordings."""
+    unit = VirtualUnit()
+    begun = [70.0, 100.0, 40.0, 75.0]
+    made = [unit.rest("x", "static_before"), unit.rest("x", "static_after")] * 2
+    shifted = [
+        changed(recorded, t_s=recorded.samples["t_s"] + start)
+        for recorded, start in zip(made, begun, strict=True)
+    ]
+    starts = np.array([take.start_s for take in select(unit.recording(shifted)).takes])
+    assert np.diff(starts) == pytest.approx([30.0, 20.0, 35.0])
+    one_after_the_other = [take.start_s for take in select(unit.recording(made)).takes]
+    assert one_after_the_other == pytest.approx([0.0, 20.0, 40.0, 60.0])

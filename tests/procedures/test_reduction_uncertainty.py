@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import fields
+from functools import partial
 
 import numpy as np
 import pytest
@@ -12,8 +13,11 @@ from scipy.stats import binom, chi2
 
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.result import Uncertainty
-from ahrs_lab.procedures.reduction import reduce_recording
+from ahrs_lab.procedures import reduction
 from tests.procedures.virtual_unit import RATES, VirtualUnit
+
+reduce_recording = partial(reduction.reduce_recording, trials=0)
+"""Without the Monte Carlo check, which has tests of its own."""
 
 DENSITY = 2.5e-3
 """0.15 °/√h in °/√s."""

@@ -59,7 +59,7 @@ class Residuals:
 class LackOfFit:
     """Residual variance over what noise and drift explain, by F with ``dof_fit`` and ``dof_noise``.
 
-    ``share``: of the variance of K that the excess makes up, 0…1.
+    ``share``: of the variance of K by scatter that no smooth curve explains, 0…1.
     """
 
     F: float

@@ -32,7 +32,7 @@ from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_structure, dr
 Array = NDArray[np.float64]
 
 MAIN_SHARE = 0.5
-"""Of the variance of K from which lack of fit is what its uncertainty mainly consists of."""
+"""Of the variance of K from which scatter is what its uncertainty mainly consists of."""
 _LEAST_RELATIVE = 1e-12
 """Noise that small beside the full scale is the arithmetic's."""
 
@@ -44,9 +44,10 @@ def diagnose_scale_factor(
     segments: tuple[str, ...],
     statics: tuple[float, float],
     unit: str,
-    standard_K: float,
+    scatter_share: float,
 ) -> ScaleFactorDiagnosis:
-    """``evidence`` is the budget's; ``statics`` are F_s, F_e in ``unit``; ``standard_K``: u_c(K)."""
+    """``evidence`` is the budget's; ``statics`` are F_s, F_e in ``unit``; ``scatter_share``: of the variance
+    of K by scatter about a smooth curve, 0…1."""
     rates, starts = np.array(fit.rates_dps), evidence.starts_s
     design = np.column_stack([np.ones_like(rates), rates])
     full_scale = max(map(abs, fit.outputs), default=0.0)
@@ -62,7 +63,7 @@ def diagnose_scale_factor(
         full_scale=full_scale,
         residuals=residuals,
         trend=trend(design, np.array(fit.outputs), middle - middle.mean()),
-        lack_of_fit=_lack_of_fit(fit, evidence, design, errors, full_scale, standard_K),
+        lack_of_fit=_lack_of_fit(fit, evidence, design, errors, full_scale, scatter_share),
         drift=_drift(evidence, statics, full_scale),
     )
     findings = (
@@ -87,23 +88,21 @@ def _lack_of_fit(
     design: Array,
     errors: Array,
     full_scale: float,
-    standard_K: float,
+    scatter_share: float,
 ) -> LackOfFit | None:
     """F of Σv² over what the recordings' own noise (pure error) and the drift between them explain."""
     if float(np.sqrt(np.mean(errors**2))) <= _LEAST_RELATIVE * full_scale:
         return None
     white, _ = residual_expectation(design, np.diag(errors**2))
     structure = _structure(evidence.starts_s, evidence.durations_s, evidence.noise)
-    drift = max(0.0, residual_expectation(design, -0.5 * structure)[0])
+    contrasts = np.linalg.qr(design, mode="complete")[0][:, design.shape[1] :].T
+    drift, dof_drift = drift_variance(contrasts, evidence.starts_s, evidence.durations_s, evidence.noise)
     expected, dof_fit = residual_expectation(design, np.diag(errors**2) - 0.5 * structure)
     leverage = 1.0 - (np.linalg.qr(design)[0] ** 2).sum(axis=1)
     dof_white = welch_satterthwaite(leverage * errors**2, evidence.dofs)
-    dof_noise = welch_satterthwaite(np.array([white, drift]), np.array([dof_white, evidence.noise.drift_dof]))
-    total = math.fsum(v * v for v in fit.residuals)
-    F = total / expected
-    excess = max(0.0, total - expected) / (len(fit.residuals) - 2) / fit.spread
-    share = min(1.0, excess / standard_K**2) if standard_K > 0.0 else 0.0
-    return LackOfFit(F, dof_fit, dof_noise, f_tail(F, dof_fit, dof_noise), share)
+    dof_noise = welch_satterthwaite(np.array([white, drift]), np.array([dof_white, dof_drift]))
+    F = math.fsum(v * v for v in fit.residuals) / expected
+    return LackOfFit(F, dof_fit, dof_noise, f_tail(F, dof_fit, dof_noise), scatter_share)
 
 
 def _structure(starts_s: Array, durations_s: Array, noise: NoiseModel) -> Array:
@@ -117,7 +116,7 @@ def _structure(starts_s: Array, durations_s: Array, noise: NoiseModel) -> Array:
 def _drift(evidence: ScaleFactorEvidence, statics: tuple[float, float], full_scale: float) -> Change | None:
     """F_e − F_s against the noise of the two means and the drift that the noise model expects."""
     white = np.array(evidence.rest_standard_errors) ** 2
-    drift = drift_variance(
+    drift, dof_drift = drift_variance(
         np.array([-1.0, 1.0]),
         np.array(evidence.rest_starts_s),
         np.array(evidence.rest_durations_s),
@@ -128,7 +127,7 @@ def _drift(evidence: ScaleFactorEvidence, statics: tuple[float, float], full_sca
     if standard <= _LEAST_RELATIVE * full_scale:
         return None
     variances = np.array([*white, drift, steps])
-    dof = welch_satterthwaite(variances, np.array([*evidence.rest_dofs, evidence.noise.drift_dof, math.inf]))
+    dof = welch_satterthwaite(variances, np.array([*evidence.rest_dofs, dof_drift, math.inf]))
     value = statics[1] - statics[0]
     return Change(value, standard, dof, two_sided(value / standard, dof))
 
@@ -188,14 +187,16 @@ def _fit_finding(found: ScaleFactorDiagnosis) -> list[DiagnosisFinding]:
     if fit.share < MAIN_SHARE or state_of(fit.p) == "look":
         what = Message(
             "The residuals are {times} times what the noise of the recordings explains: the output is not "
-            "quite linear, or the table's rate varied. It is {share} % of the variance of K.",
+            "quite linear, or the table's rate varied. Scatter about a smooth curve is {share} % of the "
+            "variance of K.",
             times=times,
             share=share,
         )
         return [DiagnosisFinding("look", what, fit.p)]
     what = Message(
-        "The residuals are {times} times what the noise of the recordings explains, and that is {share} % of "
-        "the variance of K: check the table and whether the rates stay within the range of the device.",
+        "The residuals are {times} times what the noise of the recordings explains, and scatter about a "
+        "smooth curve is {share} % of the variance of K: check the table and whether the rates stay within "
+        "the range of the device.",
         times=times,
         share=share,
     )

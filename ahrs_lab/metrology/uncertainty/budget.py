@@ -1,4 +1,12 @@
-"""Rows of a budget and their combination: JCGM 100, 5.1.2, G.4 and G.3."""
+"""Rows of a budget and their combination: JCGM 100, 5.1.2, 5.2.2, G.4 and G.3.
+
+Degrees of freedom where the rows are not independent estimates: with e_k = c_k·u_k the variance is
+u_c² = Σ e_i Σ r_ij e_j, so a relative error of the estimate behind row i moves it by a_i = e_i Σ r_ij e_j of
+itself. Rows of one estimate (``shared``) err together, different estimates apart:
+ν = u_c⁴ / Σ (Σ a_i over the rows of an estimate)²/ν of the estimate. Without correlation or shared rows this
+is (G.2b); for simultaneous observations (example H.2), all of one estimate, it is their own ν. The
+coefficients themselves count as known.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +14,16 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import ndtri, stdtrit
 
+from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
-from ahrs_lab.metrology.result import BudgetRow, Distribution, Method, Origin, Uncertainty
+from ahrs_lab.metrology.result import BudgetRow, Correlation, Distribution, Method, Origin, Uncertainty
+from ahrs_lab.metrology.uncertainty.correlation import correlation_matrix
+from ahrs_lab.metrology.uncertainty.distributions import refuse_dof
+
+Array = NDArray[np.float64]
 
 PROBABILITY = 0.95
 
@@ -34,8 +48,12 @@ def type_a(
     sensitivity: float,
     dof: float,
     estimate: float | None = None,
+    shared: str = "",
 ) -> BudgetRow:
-    """A row whose standard uncertainty comes from the recorded data."""
+    """A row whose standard uncertainty comes from the recorded data.
+
+    Rows whose uncertainties are one and the same estimate name it in ``shared``.
+    """
     return BudgetRow(
         symbol=symbol,
         source=source,
@@ -49,6 +67,7 @@ def type_a(
         dof=dof,
         origin="data",
         estimate=estimate,
+        shared=shared,
     )
 
 
@@ -108,15 +127,30 @@ def from_half_width(
     )
 
 
-def effective_dof(contributions: Sequence[float], dofs: Sequence[float]) -> float:
-    """Welch–Satterthwaite (JCGM 100, G.2b): infinite where no row of finite dof contributes to speak of."""
-    largest = max(contributions, default=0.0)
+def effective_dof(
+    contributions: Sequence[float],
+    dofs: Sequence[float],
+    shared: Sequence[str] = (),
+    correlation: Array | None = None,
+) -> float:
+    """Welch–Satterthwaite (JCGM 100, G.2b): infinite where no row of finite dof contributes to speak of.
+
+    ``shared``: for each row the name of the estimate it comes from, empty for one of its own;
+    ``correlation``: shape (n, n), for which ``contributions`` carry the signs of their sensitivities.
+    """
+    largest = max(map(abs, contributions), default=0.0)
     if largest == 0.0:
         return math.inf
-    shares = [c / largest for c in contributions]  # fourth powers of 1e-7 and less stay representable
-    total = sum(share**2 for share in shares) ** 2
-    weighted = sum(share**4 / dof for share, dof in zip(shares, dofs, strict=True))
-    dof = total / weighted if weighted > 0.0 else math.inf
+    e = np.array(contributions) / largest  # fourth powers of 1e-7 and less stay representable
+    moved = e * (e if correlation is None else correlation @ e)
+    estimates: dict[str | int, float] = {}
+    known: dict[str | int, float] = {}
+    for index, (part, dof) in enumerate(zip(moved.tolist(), dofs, strict=True)):
+        name = shared[index] if shared and shared[index] else index
+        estimates[name] = estimates.get(name, 0.0) + part
+        known[name] = dof
+    weighted = sum(part**2 / known[name] for name, part in estimates.items())
+    dof = float(moved.sum()) ** 2 / weighted if weighted > 0.0 else math.inf
     return dof if dof < AS_GOOD_AS_INFINITE else math.inf
 
 
@@ -126,12 +160,43 @@ def coverage_factor(dof: float, probability: float = PROBABILITY) -> float:
     return float(stdtrit(dof, upper)) if math.isfinite(dof) else float(ndtri(upper))
 
 
-def combine(rows: Sequence[BudgetRow], method: Method = "gum") -> Uncertainty:
-    """u_c in quadrature (the rows are uncorrelated by construction), U = k·u_c with k from t at 95 %."""
-    contributions = [row.contribution for row in rows]
-    standard = float(np.sqrt(np.sum(np.square(contributions)))) if contributions else 0.0
-    dof = effective_dof(contributions, [row.dof for row in rows])
+def combine(
+    rows: Sequence[BudgetRow], method: Method = "gum", correlations: Sequence[Correlation] = ()
+) -> Uncertainty:
+    """u_c by (10) or, with ``correlations`` between rows, by (13) of JCGM 100; U = k·u_c, k from t at 95 %.
+
+    Raises InputError for correlations that cannot be, for degrees of freedom that are not positive, and for
+    rows that share an estimate but not its degrees of freedom.
+    """
+    _check(rows)
+    signed = np.array([math.copysign(row.contribution, row.sensitivity) for row in rows])
+    matrix = correlation_matrix([row.symbol for row in rows], correlations) if correlations else None
+    if matrix is None:
+        standard = float(np.sqrt(np.sum(np.square(signed))))
+    else:
+        standard = math.sqrt(max(0.0, float(signed @ matrix @ signed)))
+    dof = effective_dof(signed.tolist(), [row.dof for row in rows], [row.shared for row in rows], matrix)
     k = coverage_factor(dof)
     return Uncertainty(
-        standard=standard, expanded=k * standard, coverage_factor=k, dof=dof, method=method, rows=tuple(rows)
+        standard=standard,
+        expanded=k * standard,
+        coverage_factor=k,
+        dof=dof,
+        method=method,
+        rows=tuple(rows),
+        correlations=tuple(correlations),
     )
+
+
+def _check(rows: Sequence[BudgetRow]) -> None:
+    known: dict[str, float] = {}
+    for row in rows:
+        refuse_dof(row.dof, row.symbol)
+        if row.shared and known.setdefault(row.shared, row.dof) != row.dof:
+            raise InputError(
+                "The rows that share the estimate “{shared}” have different degrees of freedom ({first} and "
+                "{second}): it has one number of them.",
+                shared=row.shared,
+                first=known[row.shared],
+                second=row.dof,
+            )

@@ -13,7 +13,7 @@ from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.uncertainty.bench_figure import from_figure
 from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
-from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_variance
+from ahrs_lab.metrology.uncertainty.noise import WHITE_NOISE, NoiseModel, drift_variance
 
 
 @dataclass(frozen=True)
@@ -67,13 +67,13 @@ def misalignment_uncertainty(
 
 
 def _recording_rows(evidence: MisalignmentEvidence, per_degree: float) -> list[BudgetRow]:
-    white, dof, repeats = evidence.noise.white, evidence.noise.white_dof, evidence.repeats
+    noise, repeats = evidence.noise, evidence.repeats
     duration = 0.5 * (evidence.duration_positive_s + evidence.duration_negative_s)
-    drift = drift_variance(
+    drift, drift_dof = drift_variance(
         np.array([1.0, -1.0]),
         np.array(evidence.starts_s),
         np.array([evidence.duration_positive_s, evidence.duration_negative_s]),
-        evidence.noise,
+        noise,
     )
     unequal = abs(evidence.duration_positive_s - evidence.duration_negative_s)
     return [
@@ -81,19 +81,21 @@ def _recording_rows(evidence: MisalignmentEvidence, per_degree: float) -> list[B
             "N⁺",
             Message("Sensor noise in the positive turns"),
             "deg",
-            white * math.sqrt(evidence.duration_positive_s / repeats),
+            math.sqrt(noise.angle_variance(evidence.duration_positive_s) / repeats),
             per_degree,
-            dof,
+            noise.white_dof,
             estimate=evidence.angle_positive_deg,
+            shared=WHITE_NOISE,
         ),
         type_a(
             "N⁻",
             Message("Sensor noise in the negative turns"),
             "deg",
-            white * math.sqrt(evidence.duration_negative_s / repeats),
+            math.sqrt(noise.angle_variance(evidence.duration_negative_s) / repeats),
             -per_degree,
-            dof,
+            noise.white_dof,
             estimate=evidence.angle_negative_deg,
+            shared=WHITE_NOISE,
         ),
         type_a(
             "D",
@@ -101,7 +103,7 @@ def _recording_rows(evidence: MisalignmentEvidence, per_degree: float) -> list[B
             "deg",
             math.sqrt(drift / repeats) * duration,
             per_degree,
-            evidence.noise.drift_dof,
+            drift_dof,
         ),
         from_half_width(
             "ΔT",

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import chdtri
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import (
@@ -18,11 +19,15 @@ from ahrs_lab.metrology.conditions import (
 )
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.scale_factor import ScaleFactorFit
-from ahrs_lab.metrology.uncertainty.bench_figure import from_figure, root_sum
+from ahrs_lab.metrology.uncertainty.bench_figure import BenchFigure, from_figure, root_sum
 from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_variance
+from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
+
+SIGNIFICANCE = 0.05
+"""How often noise and drift alone may scatter so that it counts as something else."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +51,16 @@ class ScaleFactorEvidence:
     resolution: float
     dithered: bool
     noise: NoiseModel
+    latitude_deg: float
+
+    @property
+    def all_starts_s(self) -> Array:
+        """Shape (M + 2,): of the rates, then of the two at rest."""
+        return np.array([*self.starts_s, *self.rest_starts_s])
+
+    @property
+    def all_durations_s(self) -> Array:
+        return np.array([*self.durations_s, *self.rest_durations_s])
 
 
 def scale_factor_uncertainty(
@@ -62,12 +77,14 @@ def scale_factor_uncertainty(
     ``time_scaled``: the outputs were made of increments over the device's time, so its error enters.
     """
     K_weights, F0_weights = np.array(fit.K_weights), np.array(fit.F0_weights)
-    table = _table_rows(fit, K_weights, evidence, capability, rate_source)
-    table_F0 = _table_rows(fit, F0_weights, evidence, capability, rate_source)
-    data = _data_rows(fit, K_weights, evidence, device_unit, 1.0 / math.sqrt(fit.spread))
+    mean_rate = float(np.mean(fit.rates_dps))
+    table = _table_rows(fit, K_weights, 1.0 / fit.spread, evidence, capability, rate_source)
+    table_F0 = _table_rows(fit, F0_weights, -mean_rate / fit.spread, evidence, capability, rate_source)
+    scatter = unexplained_scatter(fit, evidence)
+    data = _data_rows(K_weights, evidence, scatter, device_unit, 1.0 / math.sqrt(fit.spread))
     F0_scale = 1.0 / math.sqrt(len(F0_weights))
-    data_F0 = _data_rows(fit, F0_weights, evidence, device_unit, F0_scale)
-    data_F0.append(_rest_row(evidence, device_unit))
+    data_F0 = _data_rows(F0_weights, evidence, scatter, device_unit, F0_scale)
+    data_F0 += [_rest_row(evidence, device_unit), _level_row(fit, evidence, capability)]
     timing: list[BudgetRow] = []
     if time_scaled or rate_source == "table":
         timing.append(
@@ -77,23 +94,25 @@ def scale_factor_uncertainty(
 
 
 def _data_rows(
-    fit: ScaleFactorFit, weights: Array, evidence: ScaleFactorEvidence, unit: str, scale: float
+    weights: Array, evidence: ScaleFactorEvidence, scatter: tuple[float, float], unit: str, scale: float
 ) -> list[BudgetRow]:
-    """Noise, lack of fit, drift, resolution, each as the equivalent uncertainty of one mean times
-    ``scale``."""
+    """Noise, scatter, drift, resolution, each as the equivalent uncertainty of one mean times ``scale``."""
     variances = (weights * evidence.standard_errors) ** 2
     noise = math.sqrt(float(variances.sum()))
     dof = _pooled_dof(variances, evidence.dofs)
     rows = [type_a("F̄", Message("Sensor noise in the means at the rates"), unit, noise / scale, scale, dof)]
-    freedom = len(weights) - 2
-    if freedom > 0:
-        scatter = sum(v * v for v in fit.residuals) / freedom
-        expected = float(np.mean(evidence.standard_errors**2))
-        excess = math.sqrt(max(0.0, scatter - expected))
-        factor = math.sqrt(float(weights @ weights))
-        rows.append(
-            type_a("v", Message("Lack of fit beyond the sensor noise"), unit, excess, factor, freedom)
+    excess, freedom = scatter
+    factor = math.sqrt(float(weights @ weights))
+    rows.append(
+        type_a(
+            "v",
+            Message("Scatter about a smooth curve beyond noise and drift"),
+            unit,
+            math.sqrt(excess),
+            factor,
+            freedom if excess > 0.0 else math.inf,
         )
+    )
     rows.append(_drift_row(weights, evidence, unit))
     per_mean = weights / np.sqrt(evidence.samples) if evidence.dithered else weights
     rows.append(
@@ -112,11 +131,8 @@ def _data_rows(
 def _drift_row(weights: Array, evidence: ScaleFactorEvidence, unit: str) -> BudgetRow:
     """Drift between the recordings; the weights of the two at rest make Σc = 0 (for K they are 0)."""
     rest = -0.5 * float(weights.sum())
-    variance = drift_variance(
-        np.array([*weights, rest, rest]),
-        np.array([*evidence.starts_s, *evidence.rest_starts_s]),
-        np.array([*evidence.durations_s, *evidence.rest_durations_s]),
-        evidence.noise,
+    variance, dof = drift_variance(
+        np.array([*weights, rest, rest]), evidence.all_starts_s, evidence.all_durations_s, evidence.noise
     )
     factor = math.sqrt(float(weights @ weights))
     return type_a(
@@ -125,8 +141,45 @@ def _drift_row(weights: Array, evidence: ScaleFactorEvidence, unit: str) -> Budg
         unit,
         math.sqrt(variance) / factor,
         factor,
-        evidence.noise.drift_dof,
+        dof,
     )
+
+
+def unexplained_scatter(fit: ScaleFactorFit, evidence: ScaleFactorEvidence) -> tuple[float, float]:
+    """Variance of a mean beyond noise and drift, and its degrees of freedom.
+
+    K is the slope of the least squares line through the response at the rates run, so what a smooth
+    nonlinearity or asymmetry leaves beside the line is the unit's own (it is stated in ppm), not an error of
+    K. Scatter is counted about a curve with Ω², |Ω| and Ω³ too, and only where noise and drift would exceed
+    it in fewer than one case in twenty.
+    """
+    rates = np.array(fit.rates_dps) / max(abs(rate) for rate in fit.rates_dps)
+    curve = np.column_stack([np.ones_like(rates), rates, rates**2, np.abs(rates), rates**3])
+    left, singular, _ = np.linalg.svd(curve, full_matrices=True)
+    smooth = int(np.sum(singular > 1e-6 * singular[0]))
+    contrasts = left[:, smooth:].T
+    freedom = len(contrasts)
+    if freedom == 0:
+        return 0.0, math.inf
+    scatter = float(np.sum((contrasts @ np.array(fit.outputs)) ** 2))
+    drift, _ = drift_variance(contrasts, evidence.starts_s, evidence.durations_s, evidence.noise)
+    expected = float(np.sum(contrasts**2 @ evidence.standard_errors**2)) + drift
+    if scatter <= expected * float(chdtri(freedom, SIGNIFICANCE)) / freedom:
+        return 0.0, freedom
+    return (scatter - expected) / freedom, freedom
+
+
+def _level_row(fit: ScaleFactorFit, evidence: ScaleFactorEvidence, capability: BenchCapability) -> BudgetRow:
+    """A case that leans feels the Earth's horizontal rate at rest; at the rates it turns away."""
+    horizontal = EARTH_RATE_DPS * math.cos(math.radians(evidence.latitude_deg))
+    source = Message("Level of the case, through the Earth's rate")
+    return from_figure("β", source, "rad", _lean(capability), fit.K * horizontal)
+
+
+def _lean(capability: BenchCapability) -> BenchFigure:
+    """Case axis against table axis in one direction, rad: seat, fixture and wobble."""
+    names = ("level_arcsec", "fixture_perpendicularity_arcsec", "wobble_arcsec")
+    return root_sum([capability.figure(name) for name in names]).times(ARCSEC)
 
 
 def _rest_row(evidence: ScaleFactorEvidence, unit: str) -> BudgetRow:
@@ -141,13 +194,21 @@ def _rest_row(evidence: ScaleFactorEvidence, unit: str) -> BudgetRow:
     )
 
 
+def bands_of(rates_dps: Array) -> NDArray[np.int_]:
+    """The band of clause 6 of each rate, shape (M,)."""
+    return np.array([rate_band(rate) for rate in rates_dps])
+
+
 def _table_rows(
     fit: ScaleFactorFit,
     weights: Array,
+    slope_residuals: float,
     evidence: ScaleFactorEvidence,
     capability: BenchCapability,
     rate_source: Literal["demanded", "table"],
 ) -> list[BudgetRow]:
+    """∂/∂Ω_j is −K·weight_j for means on the line; off it a residual v_j turns the line by v_j/S, which
+    ``slope_residuals`` counts: 1/S for K, −Ω̄/S for F₀."""
     rates = np.array(fit.rates_dps)
     if rate_source == "table":
         # angle turned over time: two readings of the angle, independent from rate to rate
@@ -155,11 +216,12 @@ def _table_rows(
         factor = fit.K * math.sqrt(float(np.sum((weights / evidence.durations_s) ** 2)))
         return [from_figure("θ", Message("Angle read by the table"), "deg", angle, factor)]
     rows = []
-    bands = np.array([rate_band(rate) for rate in rates])
+    bands = bands_of(rates)
+    moved = slope_residuals * np.array(fit.residuals) - fit.K * weights
     for band in np.unique(bands):
         inside = bands == band
         # one relative error for the whole band: its effects add with their signs
-        factor = -fit.K * float(weights[inside] @ rates[inside])
+        factor = float(moved[inside] @ rates[inside])
         rows.append(
             from_figure(
                 "Ω",
@@ -174,14 +236,14 @@ def _table_rows(
 
 def _alignment_row(fit: ScaleFactorFit, capability: BenchCapability) -> BudgetRow:
     """Case axis against table axis: a cosine, so of second order; level and fixture are seen through it."""
-    names = ("level_arcsec", "fixture_perpendicularity_arcsec", "wobble_arcsec")
-    angle = root_sum([capability.figure(name) for name in names]).times(ARCSEC)
+    lean = _lean(capability)
     return from_figure(
         "ε",
         Message("Case axis against the table's axis (cosine)"),
         "rad",
-        angle,
-        0.5 * fit.K * angle.double,
+        lean,
+        # K is too small by θ²/2; leaning both ways by u, θ²/2 has the root mean square √2·u²
+        math.sqrt(2.0) * fit.K * lean.standard,
     )
 
 

@@ -19,7 +19,7 @@ from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.uncertainty.bench_figure import from_figure
 from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
-from ahrs_lab.metrology.uncertainty.noise import NoiseModel
+from ahrs_lab.metrology.uncertainty.noise import WHITE_NOISE, NoiseModel
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
@@ -29,8 +29,8 @@ Array = NDArray[np.float64]
 class ZeroOffsetEvidence:
     """The n dwells of one axis, in order. Rates in °/s.
 
-    ``directions``: shape (n, 3), where the axis points, east-north-up. ``turned_deg``: shape (n,), how far
-    the table was turned from the first stop of its mounting; ``mountings``: shape (n,), equal where the case
+    ``directions``: shape (n, 3), where the axis points, east-north-up. ``turned_deg``: shape (n,), the
+    table's azimuth; ``mountings``: shape (n,), equal where the case
     was not re-mounted between. ``resolution_dps``, ``samples``, ``dithered`` as for the scale factor.
     ``scale_relative``: standard uncertainty of the fitted K where counts were scaled by it, else 0.
     """
@@ -79,17 +79,19 @@ def zero_offset_uncertainty(
 
 
 def _dwell_rows(evidence: ZeroOffsetEvidence) -> list[BudgetRow]:
-    """u(N_i) = N·√T from the white noise, ∂B/∂N_i = 1/(n·T_i); repeats are averaged."""
+    """u(N_i) = √(N²T + 2Q²) from the white noise of rate and angle, ∂B/∂N_i = 1/(n·T_i); repeats are
+    averaged."""
     count = len(evidence.durations_s)
     return [
         type_a(
             f"N_{index}",
             Message("Sensor noise in position {position}", position=index),
             "deg",
-            evidence.noise.white * math.sqrt(duration / repeats),
+            math.sqrt(evidence.noise.angle_variance(duration) / repeats),
             1.0 / (count * duration),
             evidence.noise.white_dof,
             estimate=float(angle),
+            shared=WHITE_NOISE,
         )
         for index, (duration, repeats, angle) in enumerate(
             zip(evidence.durations_s, evidence.repeats, evidence.angles_deg, strict=True), start=1
@@ -103,14 +105,49 @@ def earth_rate_vector(latitude_deg: float) -> Array:
     return EARTH_RATE_DPS * np.array([0.0, math.cos(latitude), math.sin(latitude)])
 
 
+@dataclass(frozen=True)
+class EarthLeverage:
+    """How the errors of the case's attitude let the Earth's rate in; °/s per rad, east-north-up.
+
+    ``each``: shape (n, 3), of each stop, weighted by 1/n; ``with_table``: shape (mountings, 3), summed over
+    each of the mountings ``names`` in axes that turn with the table; ``first_stops``: shape (n,).
+    """
+
+    earth: Array
+    each: Array
+    with_table: Array
+    names: tuple[str, ...]
+    first_stops: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, evidence: ZeroOffsetEvidence) -> EarthLeverage:
+        """Of the stops of one axis."""
+        omega = earth_rate_vector(evidence.latitude_deg)
+        each = np.cross(evidence.directions, omega) / len(evidence.directions)
+        return cls(
+            earth=omega,
+            each=each,
+            with_table=_per_mounting(_turned_back(each, evidence.turned_deg), evidence.mountings),
+            names=tuple(sorted(set(evidence.mountings))),
+            first_stops=_first_of_mounting(evidence.mountings),
+        )
+
+    @property
+    def tilts(self) -> Array:
+        """Shape (mountings,): by a tilt of each about its worst horizontal axis of the table."""
+        return np.asarray(np.hypot(self.with_table[:, 0], self.with_table[:, 1]))
+
+    @property
+    def common_tilt(self) -> float:
+        """By a tilt that all mountings have about one horizontal axis of the table, the worst."""
+        east, north, _ = self.with_table.sum(axis=0).tolist()
+        return math.hypot(east, north)
+
+
 def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> list[BudgetRow]:
-    weight = 1.0 / len(evidence.directions)
-    omega = earth_rate_vector(evidence.latitude_deg)
-    leverage = weight * np.cross(evidence.directions, omega)  # ∂B/∂δ of each position, °/s per rad
-    common = leverage.sum(axis=0)
-    with_table = _per_mounting(_turned_back(leverage, evidence.turned_deg), evidence.mountings)
-    tilts = np.hypot(with_table[:, 0], with_table[:, 1])
-    stops = _first_of_mounting(evidence.mountings)
+    leverage = EarthLeverage.of(evidence)
+    common = leverage.each.sum(axis=0)
+    tilts = leverage.tilts
     latitude = math.radians(evidence.latitude_deg)
     change = EARTH_RATE_DPS * np.array([0.0, -math.sin(latitude), math.cos(latitude)])
     cos_phi = Message("Azimuth reference (north); reversal cancels it")
@@ -123,7 +160,7 @@ def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> li
             "α",
             Message("Table position from stop to stop, through the Earth's rate"),
             "position_arcsec",
-            math.sqrt(float(np.sum(leverage[~stops, 2] ** 2))),
+            math.sqrt(float(np.sum(leverage.each[~leverage.first_stops, 2] ** 2))),
         ),
         row("ψ", cos_phi, "azimuth_arcsec", _clean(float(common[2]))),
         row(
@@ -132,12 +169,18 @@ def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> li
             "axis_tilt_arcsec",
             _clean(math.hypot(float(common[0]), float(common[1]))),
         ),
-        # a seat that is not level turns with the table, and in every mounting alike
+        # what turns with the table: the platform's own lean is the same in every mounting, the seat is not
+        row(
+            "w",
+            Message("Wobble of the table's axis, through the Earth's rate"),
+            "wobble_arcsec",
+            _clean(leverage.common_tilt),
+        ),
         row(
             "β",
             Message("Level of the case, through the Earth's rate"),
             "level_arcsec",
-            _clean(float(tilts.sum())),
+            _clean(math.sqrt(float(np.sum(tilts**2)))),
         ),
         row(
             "γ",
@@ -149,7 +192,7 @@ def _earth_rows(evidence: ZeroOffsetEvidence, capability: BenchCapability) -> li
             "φ",
             Message("Latitude; reversal cancels it"),
             "latitude_deg",
-            _clean(weight * float((evidence.directions @ change).sum())),
+            _clean(float((evidence.directions @ change).mean())),
             math.radians(1.0),
         ),
     ]

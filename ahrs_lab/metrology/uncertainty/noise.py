@@ -9,53 +9,78 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import nnls
 
 Array = NDArray[np.float64]
 
 BATCH_S = 1.0
+WHITE_NOISE = "N"
+"""Name of the white density as an estimate that several rows of a budget share."""
 FLICKER_SQUARED = 2.0 * math.log(2.0) / math.pi
 """(0.664282)²: Allan variance of flicker noise over B² (IEEE 952)."""
 _LONGEST_WHITE_START_S = 16.0
 _FEWEST_OCTAVES_FOR_DRIFT = 5
+_FEWEST_DOF_OF_A_LIMIT = 10.0
+_SIGNIFICANT = 3.84
+"""χ² of one degree of freedom that scatter exceeds in one case of twenty."""
 
 
 @dataclass(frozen=True)
 class NoiseModel:
-    """``white`` is N, ``flicker`` the bias instability B, ``walk`` the rate random walk K_r of one axis.
+    """``white`` is N, ``flicker`` the bias instability B, ``walk`` the rate random walk K_r of one axis,
+    ``quantisation`` Q the white noise of its angle (unit·s).
 
-    ``inflation`` ≥ 1: by how much the variance of a long mean exceeds what the scatter of neighbouring
-    one-second means says, where the output is correlated over seconds. Drift terms are 0 where the
-    recordings are too short to tell; ``drift_dof`` is then infinite.
+    ``batch_variance`` is the Allan variance that the recordings at rest show at ``batch_s``, 0 where unknown.
+    Drift terms are 0 where the recordings are too short to tell. ``covariance``, shape (4, 4), is that of the
+    estimates of Q², N², B², K_r²; None: they are known.
     """
 
     white: float = 0.0
     white_dof: float = math.inf
     flicker: float = 0.0
     walk: float = 0.0
-    drift_dof: float = math.inf
-    inflation: float = 1.0
+    quantisation: float = 0.0
+    batch_s: float = BATCH_S
+    batch_variance: float = 0.0
+    covariance: tuple[tuple[float, ...], ...] | None = None
 
     def scaled(self, factor: float) -> NoiseModel:
         """The same noise in another unit."""
         size = abs(factor)
-        return NoiseModel(
-            self.white * size,
-            self.white_dof,
-            self.flicker * size,
-            self.walk * size,
-            self.drift_dof,
-            self.inflation,
+        return replace(
+            self,
+            white=self.white * size,
+            flicker=self.flicker * size,
+            walk=self.walk * size,
+            quantisation=self.quantisation * size,
+            batch_variance=self.batch_variance * size**2,
+            covariance=self.covariance
+            and tuple(tuple(entry * size**4 for entry in row) for row in self.covariance),
         )
 
     def allan_deviation(self, tau_s: float) -> float:
         """σ(τ) of the model, in the unit of the rates."""
-        return math.sqrt(
-            self.white**2 / tau_s + FLICKER_SQUARED * self.flicker**2 + self.walk**2 * tau_s / 3.0
-        )
+        terms = np.array([self.quantisation, self.white, self.flicker, self.walk]) ** 2
+        return math.sqrt(float((_columns(np.array([tau_s])) @ terms)[0]))
+
+    def angle_variance(self, duration_s: float) -> float:
+        """Of the angle accumulated over ``duration_s``, without drift, unit²·s²: N²·T, and Q² at each end."""
+        return self.white**2 * duration_s + 2.0 * self.quantisation**2
+
+    def inflation(self, duration_s: float) -> float:
+        """By how much the variance of a mean over ``duration_s``, drift left aside, exceeds what the scatter
+        of neighbouring batches says.
+
+        More than 1 where the output is correlated over seconds; less where the scatter of the batches is
+        noise of the angle, which a long mean leaves behind, or drift, which has its own row.
+        """
+        if self.batch_variance == 0.0:
+            return 1.0
+        return self.angle_variance(duration_s) / (duration_s * self.batch_s * self.batch_variance)
 
 
 def batch_means(rate: Array, interval_s: float) -> tuple[Array, float]:
@@ -88,86 +113,117 @@ def standard_error(batches: Array, inflation: float = 1.0) -> tuple[float, float
 
 
 def fit_noise(dwells: Sequence[Array], batch_s: float) -> NoiseModel:
-    """N, B, K_r from the Allan variances, octave by octave, of recordings at rest (batch means of
+    """Q, N, B, K_r from the Allan variances, octave by octave, of recordings at rest (batch means of
     ``batch_s``).
 
     Differences are pooled over the recordings, each inside its own, so their offsets may differ.
-    Non-negative least squares of N²/τ + 0.4413·B² + K_r²·τ/3, weighted by what each octave is known to.
-    Octaves at the short end that the model cannot follow (an output correlated over seconds) are left out.
+    Non-negative least squares of 3Q²/τ² + N²/τ + 0.4413·B² + K_r²·τ/3, weighted by what each octave is known
+    to. Octaves at the short end that the model cannot follow (an output correlated over seconds) are left
+    out.
     """
-    taus, variances, counts = _pooled_allan(dwells, batch_s)
+    taus, variances, dofs = _pooled_allan(dwells, batch_s)
     if not len(taus) or variances[0] == 0.0:
         return NoiseModel()
-    first = 0
-    terms = _fit_terms(taus, variances, counts)
+    if not np.all(np.isfinite(variances)):  # readings too large to square
+        return NoiseModel(white=math.inf, white_dof=1.0)
+    first, fit = 0, _fit_terms(taus, variances, dofs)
     while len(taus) - first > 4 and 2.0 * taus[first] <= _LONGEST_WHITE_START_S:
-        model = _model(taus[first], terms)
-        spread = math.sqrt(3.0 / counts[first])  # relative, edf about 2/3 of the differences
-        if variances[first] > model * (1.0 - 4.0 * spread):
+        spread = math.sqrt(2.0 / dofs[first])
+        if variances[first] > fit.at(taus[first]) * (1.0 - 4.0 * spread):
             break
         first += 1
-        terms = _fit_terms(taus[first:], variances[first:], counts[first:])
-    white = terms[0]
-    if white == 0.0:  # drift swallows it: the shortest octave is an upper limit
-        white = variances[first] * taus[first]
-    inflation = max(1.0, white / (variances[0] * taus[0])) if first else 1.0
+        fit = _fit_terms(taus[first:], variances[first:], dofs[first:])
+    quantisation, white, flicker, walk = fit.terms.tolist()
+    white_dof = 2.0 * white**2 / fit.covariance[1, 1] if white > 0.0 else 0.0
+    if white_dof < 1.0:  # the other terms swallow it: each octave is an upper limit, the lowest holds
+        limits = np.where(dofs[first:] >= _FEWEST_DOF_OF_A_LIMIT, variances[first:] * taus[first:], math.inf)
+        lowest = first + int(np.argmin(limits))
+        white, white_dof = variances[lowest] * taus[lowest], dofs[lowest]
     return NoiseModel(
         white=math.sqrt(white),
-        white_dof=max(1.0, 2.0 * counts[first] / 3.0),
-        flicker=math.sqrt(terms[1]),
-        walk=math.sqrt(terms[2]),
-        drift_dof=max(1.0, float(counts[-1])) if terms[1] > 0.0 or terms[2] > 0.0 else math.inf,
-        inflation=inflation,
+        white_dof=float(white_dof),
+        flicker=math.sqrt(flicker),
+        walk=math.sqrt(walk),
+        quantisation=math.sqrt(quantisation),
+        batch_s=batch_s,
+        batch_variance=float(variances[0]),
+        covariance=tuple(tuple(row) for row in fit.covariance.tolist()),
     )
 
 
 def _pooled_allan(dwells: Sequence[Array], batch_s: float) -> tuple[Array, Array, Array]:
-    taus, variances, counts = [], [], []
-    current = [dwell for dwell in dwells if len(dwell) >= 2]
+    """τ, Allan variance and degrees of freedom, octave by octave.
+
+    Each octave by itself has more than these, its disjoint pairs; but only theirs are independent from octave
+    to octave, so that all octaves together know no more than the data.
+    """
+    taus, variances, dofs = [], [], []
+    lengths = {len(dwell) for dwell in dwells if len(dwell) >= 2}
+    current = [np.array([dwell for dwell in dwells if len(dwell) == length]) for length in sorted(lengths)]
     tau = batch_s
     while current:
-        squares = [float(difference @ difference) for difference in map(np.diff, current)]
-        count = sum(len(dwell) - 1 for dwell in current)
+        differences = [np.diff(block, axis=1) for block in current]
         taus.append(tau)
-        variances.append(0.5 * sum(squares) / count)
-        counts.append(count)
-        halved = [dwell[: len(dwell) // 2 * 2].reshape(-1, 2).mean(axis=1) for dwell in current]
-        current = [dwell for dwell in halved if len(dwell) >= 2]
+        squares = sum(float(np.vdot(difference, difference)) for difference in differences)
+        variances.append(0.5 * squares / sum(difference.size for difference in differences))
+        dofs.append(float(sum(len(block) * (block.shape[1] // 2) for block in current)))
+        halves = [block[:, : block.shape[1] // 2 * 2] for block in current if block.shape[1] >= 4]
+        current = [0.5 * (block[:, ::2] + block[:, 1::2]) for block in halves]
         tau *= 2.0
-    return np.array(taus), np.array(variances), np.array(counts, dtype=np.float64)
+    return np.array(taus), np.array(variances), np.array(dofs)
 
 
-def _model(tau: float, terms: tuple[float, float, float]) -> float:
-    return terms[0] / tau + FLICKER_SQUARED * terms[1] + terms[2] * tau / 3.0
+def _columns(taus: Array) -> Array:
+    """Shape (n, 4): Allan variance at each τ of unit Q², N², B², K_r² (IEEE 952)."""
+    return np.column_stack([3.0 / taus**2, 1.0 / taus, np.full_like(taus, FLICKER_SQUARED), taus / 3.0])
 
 
-def _fit_terms(taus: Array, variances: Array, counts: Array) -> tuple[float, float, float]:
-    """N², B², K_r² ≥ 0. Two passes: the second weights by the fitted, not by the scattered variances."""
-    columns = np.column_stack([1.0 / taus, np.full_like(taus, FLICKER_SQUARED), taus / 3.0])
+@dataclass(frozen=True)
+class _Fit:
+    """Q², N², B², K_r² ≥ 0, shape (4,), and their covariance, shape (4, 4)."""
+
+    terms: Array
+    covariance: Array
+
+    def at(self, tau: float) -> float:
+        return float((_columns(np.array([tau])) @ self.terms)[0])
+
+
+def _fit_terms(taus: Array, variances: Array, dofs: Array) -> _Fit:
+    """Three passes: the later ones weight by the fitted, not by the scattered variances."""
     if len(taus) < _FEWEST_OCTAVES_FOR_DRIFT:
-        return float(variances[0] * taus[0]), 0.0, 0.0
-    expected = np.maximum(variances, 1e-6 * variances.max())
-    best = np.zeros(3)
-    for _ in range(2):
-        weights = np.sqrt(counts) / expected
-        best = _non_negative(columns * weights[:, None], variances * weights)
-        expected = np.maximum(columns @ best, 1e-6 * variances.max())
-    return float(best[0]), float(best[1]), float(best[2])
+        white = float(variances[0] * taus[0])
+        return _Fit(
+            np.array([0.0, white, 0.0, 0.0]), np.diag([0.0, 2.0 * white**2 / float(dofs[0]), 0.0, 0.0])
+        )
+    columns = _columns(taus)
+    floor = 1e-6 * float(variances.max())
+    expected = np.maximum(variances, floor)
+    for _ in range(3):
+        weights = np.sqrt(0.5 * dofs) / expected
+        fit = _select_terms(columns * weights[:, None], variances * weights)
+        expected = np.maximum(columns @ fit.terms, floor)
+    return fit
 
 
-def _non_negative(matrix: Array, target: Array) -> Array:
-    """Least squares with three non-negative unknowns: the best of the seven subsets that is feasible."""
-    best, least = np.zeros(3), float(target @ target)
-    for subset in ([0], [1], [2], [0, 1], [0, 2], [1, 2], [0, 1, 2]):
-        part = matrix[:, subset]
+def _select_terms(columns: Array, target: Array) -> _Fit:
+    """White noise and flicker, which every gyro has, and with them the noise of the angle and the random walk
+    where the data ask for them: a term that is only fitted to scatter takes its share from the others."""
+    best, least = None, math.inf
+    for more in ((), (0,), (3,), (0, 3)):
+        used = sorted((1, 2, *more))
+        part = columns[:, used]
         scale = np.sqrt((part**2).sum(axis=0))
-        solution = np.linalg.lstsq(part / scale, target, rcond=None)[0] / scale
-        residual = target - part @ solution
-        if np.all(solution >= 0.0) and residual @ residual < least:
-            least = float(residual @ residual)
-            best = np.zeros(3)
-            best[subset] = solution
-    return best
+        solution, distance = nnls(part / scale, target)
+        cost = distance**2 + _SIGNIFICANT * len(more)
+        if cost < least:
+            least, best = cost, (used, part / scale, solution, scale)
+    assert best is not None
+    used, part, solution, scale = best
+    terms, covariance = np.zeros(4), np.zeros((4, 4))
+    terms[used] = solution / scale
+    covariance[np.ix_(used, used)] = np.linalg.pinv(part.T @ part) / np.outer(scale, scale)
+    return _Fit(terms, covariance)
 
 
 def drift_structure(lags: Array, duration_s: float, flicker: float, walk: float) -> Array:
@@ -185,18 +241,30 @@ def drift_structure(lags: Array, duration_s: float, flicker: float, walk: float)
     return np.where(lags > 0.0, structure, 0.0)
 
 
-def drift_variance(weights: Array, starts_s: Array, durations_s: Array, noise: NoiseModel) -> float:
-    """Variance of Σcᵢȳᵢ (Σc = 0) by flicker and random walk: −½ ΣΣ cᵢcⱼ D_|i−j|; arrays of shape (n,).
+def drift_variance(
+    weights: Array, starts_s: Array, durations_s: Array, noise: NoiseModel
+) -> tuple[float, float]:
+    """Variance of Σcᵢȳᵢ (Σc = 0) by flicker and random walk: −½ ΣΣ cᵢcⱼ D_|i−j|; arrays of shape (n,). And
+    its degrees of freedom, from how well B² and K_r² are known.
 
-    The means are taken as equally long (their mean duration).
+    Several sums at once: ``weights`` of shape (m, n); the result is for their variances added up. The means
+    are taken as equally long (their mean duration).
     """
+    if noise.flicker == 0.0 and noise.walk == 0.0:
+        return 0.0, math.inf
     duration = float(durations_s.mean())
     lags = np.abs(starts_s[:, None] - starts_s[None, :]) / duration
-    np.fill_diagonal(lags, 0.0)
-    off_diagonal = ~np.eye(len(weights), dtype=bool)
-    lags[off_diagonal] = np.maximum(lags[off_diagonal], 1.0)
-    structure = drift_structure(lags, duration, noise.flicker, noise.walk)
-    return max(0.0, -0.5 * float(weights @ structure @ weights))
+    lags = np.where(np.eye(len(starts_s), dtype=bool), 0.0, np.maximum(lags, 1.0))
+    products = np.atleast_2d(weights).T @ np.atleast_2d(weights)
+    units = [
+        max(0.0, -0.5 * float(np.vdot(products, drift_structure(lags, duration, *unit))))
+        for unit in ((1.0, 0.0), (0.0, 1.0))
+    ]
+    variance = units[0] * noise.flicker**2 + units[1] * noise.walk**2
+    if noise.covariance is None or variance == 0.0:
+        return variance, math.inf
+    known = np.array(noise.covariance)[2:, 2:]
+    return variance, max(1.0, 2.0 * variance**2 / float(units @ known @ units))
 
 
 def resolution_step(column: Array, looked_at: int = 4096) -> float:

@@ -6,10 +6,12 @@ one is reported in its place; budget and stored result keep what was computed.
 
 from __future__ import annotations
 
+import json
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 from ahrs_lab.errors import InputError
+from ahrs_lab.metrology.json_reader import JsonReader
 from ahrs_lab.metrology.result import CalibrationResult, Uncertainty
 
 _K = 2.0
@@ -26,6 +28,25 @@ class BestCapability:
     def __post_init__(self) -> None:
         if not all(0.0 <= one < math.inf for one in (self.K_relative, self.B_dps, self.L_rad)):
             raise InputError("The best measurement capability has to be numbers that are not negative.")
+
+
+def capability_to_json(capability: BestCapability) -> str:
+    """As the records keep it; "" where none is stated."""
+    return "" if capability == BestCapability() else json.dumps(asdict(capability), allow_nan=False)
+
+
+def capability_from_json(text: str) -> BestCapability:
+    """The inverse of :func:`capability_to_json`; raises InputError for what it did not write."""
+    if not text.strip():
+        return BestCapability()
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise InputError(
+            "The laboratory's capability is not valid JSON: {reason}", reason=str(error)
+        ) from error
+    reader = JsonReader(data, "capability")
+    return BestCapability(*(reader.number(key, 0.0) for key in ("K_relative", "B_dps", "L_rad")))
 
 
 @dataclass(frozen=True)

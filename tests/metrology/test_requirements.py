@@ -9,7 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ahrs_lab.errors import InputError
-from ahrs_lab.metrology.best_capability import BestCapability, reported
+from ahrs_lab.metrology.best_capability import (
+    BestCapability,
+    capability_from_json,
+    capability_to_json,
+    reported,
+)
 from ahrs_lab.metrology.conformity import RULES, DecisionRule
 from ahrs_lab.metrology.limits import LIMIT_UNITS, LIMITED, Limit
 from ahrs_lab.metrology.requirements import (
@@ -113,3 +118,15 @@ def test_no_reported_u_is_below_the_capability(k: float, b: float, m: float) -> 
     assert all(one.uncertainty.expanded >= k * abs(one.K) for one in found.scale_factor.values())
     assert all(one.uncertainty.expanded >= b for one in found.zero_offset.values())
     assert all(one.uncertainty.expanded >= m for one in found.misalignment.values())
+
+
+@given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
+def test_a_capability_survives_its_json(k: float, b: float, m: float) -> None:
+    stated = BestCapability(k, b, m)
+    assert capability_from_json(capability_to_json(stated)) == stated
+
+
+@pytest.mark.parametrize("text", ["x", "[]", '{"B_dps": -1}', '{"B_dps": NaN}', '{"B_dps": "1"}'])
+def test_a_capability_that_was_not_written_here_is_refused(text: str) -> None:
+    with pytest.raises(InputError):
+        capability_from_json(text)

@@ -17,9 +17,11 @@ from ahrs_lab.metrology.result import CalibrationResult
 
 @dataclass(frozen=True)
 class Judged:
-    """``shown``: the result as reported, ``raised``: whose U that changed ("K_x"); ``conformity``: None
-    without limits, or where ``refusal`` says why nothing can be stated."""
+    """``shown``: the result as reported, ``computed``: before U was raised, ``raised``: whose U that was
+    ("K_x"); ``conformity``: None without limits, or where ``refusal`` says why nothing can be stated."""
 
+    computed: CalibrationResult
+    requirements: Requirements
     shown: CalibrationResult
     raised: tuple[str, ...]
     conformity: Conformity | None
@@ -30,7 +32,7 @@ def judge_result(result: CalibrationResult, requirements: Requirements, capabili
     """Raises InputError where a limit cannot be judged."""
     shown = reported(result, capability)
     conformity = assess(shown.result, requirements.limits, requirements.rule)
-    return Judged(shown.result, shown.raised, conformity)
+    return Judged(result, requirements, shown.result, shown.raised, conformity)
 
 
 def judge_for_screen(
@@ -41,4 +43,4 @@ def judge_for_screen(
         return judge_result(result, requirements, capability)
     except InputError as error:
         shown = reported(result, capability)
-        return Judged(shown.result, shown.raised, None, error.message)
+        return Judged(result, requirements, shown.result, shown.raised, None, error.message)

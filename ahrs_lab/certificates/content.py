@@ -12,8 +12,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from ahrs_lab.certificates import wording
+from ahrs_lab.certificates import conformity_wording, wording
 from ahrs_lab.certificates.charts import position_blocks, residual_blocks
+from ahrs_lab.certificates.conformity_tables import conformity_blocks
 from ahrs_lab.certificates.documents import (
     Block,
     Column,
@@ -48,7 +49,9 @@ from ahrs_lab.certificates.result_tables import (
 from ahrs_lab.certificates.richtext import RichText, Run, joined, markup, plain, symbol
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.best_capability import reported
 from ahrs_lab.metrology.conditions import Standard, clause6_violations
+from ahrs_lab.metrology.conformity import assess
 from ahrs_lab.metrology.figures_json import noted_capability, stated_figures
 from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, CalibrationResult, Environment, Uncertainty
 from ahrs_lab.metrology.rounding import format_grouped
@@ -67,14 +70,19 @@ def certificate_content(
 
     Raises:
         InputError: the result is empty, or it belongs to another device or method than the job says (a
-            demonstration says so in its remarks instead).
+            demonstration says so in its remarks instead); its limits cannot be judged, or a unit asked for
+            does not fit it.
     """
     if not (result.scale_factor or result.zero_offset or result.misalignment):
         raise InputError("The result holds no scale factor, zero offset or misalignment: nothing to certify")
     mismatches = mismatches_of(result, job)
     if mismatches and not is_demonstration(result, job):
         raise InputError(mismatches[0])
-    writer = ResultWriter(language, job.rounding)
+    asked = job.requirements
+    _check_units(result, job)
+    shown = reported(result, job.best_capability)
+    conformity = assess(shown.result, asked.limits, asked.rule)
+    writer = ResultWriter(language, job.rounding, asked.units, shown.raised, str(_raised_mark(result)))
     return Document(
         frame=document_frame(result, job, language, wording.TITLE),
         front=front_fields(result, job, language),
@@ -82,8 +90,9 @@ def certificate_content(
         pages=(
             (
                 *standards_blocks(job.standards, writer),
-                *_results(result, writer),
-                *_footnotes(result, language),
+                *_results(shown.result, writer),
+                *_footnotes(result, writer),
+                *(conformity_blocks(conformity, shown.result, writer) if conformity else ()),
                 *_methods(result, job, mismatches, language),
             ),
             _annex(result, writer),
@@ -294,15 +303,32 @@ def _results(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ..
     )
 
 
-def _footnotes(result: CalibrationResult, language: CertificateLanguage) -> tuple[Block, ...]:
-    notes = [wording.NOTE_SYMBOLS, wording.NOTE_DIVISORS, wording.NOTE_RATIO, wording.NOTE_PRODUCT]
+def _check_units(result: CalibrationResult, job: JobSheet) -> None:
+    own = {one.unit for one in result.scale_factor.values()} - {"1", "(deg/s)/(deg/s)"}
+    if job.requirements.units.scale_factor == "ppm" and own:
+        raise InputError(
+            "The scale factor is in {unit}: only a dimensionless one can be given in ppm.",
+            unit=", ".join(sorted(own)),
+        )
+
+
+def _raised_mark(result: CalibrationResult) -> int:
+    """After the four notes on the print and those on the methods."""
+    return 5 + len(methods_of(result))
+
+
+def _footnotes(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ...]:
+    ratio = conformity_wording.RATIO_IN_ONE_UNIT if writer.units.misalignment else wording.NOTE_RATIO
+    notes = [wording.NOTE_SYMBOLS, wording.NOTE_DIVISORS, ratio, wording.NOTE_PRODUCT]
     methods = methods_of(result)
     if "gum" in methods:
         notes.append(wording.NOTE_SENSITIVITY)
     if "annex-a" in methods:
         notes.append(wording.NOTE_ANNEX_A)
+    if writer.raised:
+        notes.append(conformity_wording.RAISED)
     return tuple(
-        Paragraph(label(note, language), str(mark), size=7.0, together=True, kept=mark < len(notes))
+        Paragraph(writer.words(note), str(mark), size=7.0, together=True, kept=mark < len(notes))
         for mark, note in enumerate(notes, 1)
     )
 

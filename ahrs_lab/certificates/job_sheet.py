@@ -9,7 +9,9 @@ from datetime import date
 from pathlib import Path
 from typing import Literal
 
+from ahrs_lab.metrology.best_capability import BestCapability
 from ahrs_lab.metrology.conditions import BenchCapability, Standard
+from ahrs_lab.metrology.requirements import Requirements
 
 CertificateLanguage = Literal["bilingual", "zh", "en"]
 
@@ -47,7 +49,8 @@ class DeviceUnderTest:
 
 @dataclass(frozen=True)
 class JobSheet:
-    """One job. ``limits`` and conformity come with a later release; ``notes`` are printed as given."""
+    """One job. ``requirements``: limits, decision rule and units that the customer asked for; ``notes`` are
+    printed as given."""
 
     number: str
     certificate_number: str
@@ -67,6 +70,9 @@ class JobSheet:
     procedure: str = "JJF 1536—2015 捷联式惯性航姿仪校准规范"
     procedure_en: str = "JJF 1536-2015 Calibration Specification for Strapdown Inertial Flight Attitudes"
     recalibration_months: int = 24
+    requirements: Requirements = field(default_factory=Requirements)
+    best_capability: BestCapability = field(default_factory=BestCapability)
+    """Of the laboratory: no U is reported below it."""
     rounding: Literal["half-even", "up"] = "half-even"
     uncertainty_method: Literal["gum", "annex-a"] = "gum"
     notes: tuple[str, ...] = ()

@@ -12,6 +12,7 @@ from typing import Any, Literal, TypeVar, cast
 
 from ahrs_lab.certificates.job_sheet import DeviceUnderTest, JobSheet, Party, Person
 from ahrs_lab.certificates.job_sheet_figures import check_figures, read_figures
+from ahrs_lab.certificates.job_sheet_limits import read_best_capability, read_requirements
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.capability import capability_of
@@ -104,6 +105,14 @@ class _Table:
             raise self.wrong(key, Message("a number, not negative"))
         return float(value)
 
+    def signed(self, key: str) -> float | None:
+        value = self._take(key)
+        if value is None:
+            return None
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < _LARGEST:
+            raise self.wrong(key, Message("a number"))
+        return float(value)
+
     def numbers(self, key: str, default: tuple[float, float, float]) -> tuple[float, float, float]:
         value = self._take(key)
         if value is None:
@@ -161,6 +170,12 @@ class _Table:
             )
         return [_Table(v, f"{self._place(key)}[{i}]", self._path) for i, v in enumerate(value, 1)]
 
+    def refused(self, error: InputError) -> InputError:
+        """What the rooms below say of this table's values, with its place."""
+        return InputError(
+            "{file}: “{key}”: {reason}", file=self._path.name, key=self.where, reason=error.message
+        )
+
     def finish(self) -> None:
         unknown = sorted(set(self._data) - self._known)
         if unknown:
@@ -185,11 +200,13 @@ def read_job_sheet(path: Path) -> JobSheet:
     people = top.table("people")
     calibrated = cast("date", top.day("calibrated", required=True))
     standards = tuple(_standard(table, path) for table in top.tables("standard"))
+    laboratory = top.table("laboratory")
+    best_capability = read_best_capability(laboratory.table("capability", required=False))
     defaults = JobSheet.__dataclass_fields__
     sheet = JobSheet(
         number=top.text("number"),
         certificate_number=top.text("certificate_number"),
-        laboratory=_party(top.table("laboratory")),
+        laboratory=_party(laboratory),
         customer=_party(top.table("customer")),
         device=_device(top.table("device")),
         operator=_person(people.table("operator")),
@@ -205,6 +222,8 @@ def read_job_sheet(path: Path) -> JobSheet:
         procedure=top.text("procedure", str(defaults["procedure"].default), empty=False),
         procedure_en=top.text("procedure_en", str(defaults["procedure_en"].default), empty=False),
         recalibration_months=top.whole("recalibration_months", 24, 1, 120),
+        requirements=read_requirements(top),
+        best_capability=best_capability,
         rounding=top.choice("rounding", ("half-even", "up"), "half-even"),
         uncertainty_method=top.choice("uncertainty_method", ("gum", "annex-a"), "gum"),
         notes=top.texts("notes"),

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from string import ascii_lowercase
 from typing import Literal
 
-from ahrs_lab.certificates import wording
+from ahrs_lab.certificates import conformity_wording, wording
 from ahrs_lab.certificates.documents import EMPTY, Column, Label, Table, Words, label, same
 from ahrs_lab.certificates.job_sheet import CertificateLanguage
 from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol
+from ahrs_lab.metrology.requirements import ResultUnits
 from ahrs_lab.metrology.result import (
     MISALIGNMENT_KEYS,
     AxisName,
@@ -26,8 +27,15 @@ from ahrs_lab.metrology.rounding import format_grouped, round_to_place, round_to
 
 AXES: tuple[AxisName, ...] = ("x", "y", "z")
 PER_HOUR = 3600.0
-ARCMIN = 180.0 * 60.0 / math.pi
 DEGREE = 180.0 / math.pi
+ARCMIN = 60.0 * DEGREE
+_OFFSET_UNITS = {"deg/s": ("°/s", 1.0), "deg/h": ("°/h", PER_HOUR)}
+_ANGLE_UNITS = {
+    "rad": ("rad", 1.0),
+    "arcmin": ("′", ARCMIN),
+    "arcsec": ("″", 60.0 * ARCMIN),
+    "deg": ("°", DEGREE),
+}
 DASH = "—"
 
 _UNITS = {
@@ -73,10 +81,16 @@ def contribution(value: float, combined: float) -> str:
 
 @dataclass(frozen=True)
 class ResultWriter:
-    """How results are written: the languages and the rounding of the job."""
+    """How results are written: the languages, the rounding and the units of the job.
+
+    The quantities in ``raised`` ("K_x") carry the footnote ``raised_mark``.
+    """
 
     language: CertificateLanguage
     rounding: Literal["half-even", "up"]
+    units: ResultUnits = field(default_factory=ResultUnits)
+    raised: tuple[str, ...] = ()
+    raised_mark: str = ""
 
     def words(self, words: Words) -> Label:
         """Our own wording."""
@@ -90,9 +104,10 @@ class ResultWriter:
         return same(format_grouped(rounded.value)), same(format_grouped(rounded.expanded))
 
     def quantity(self, words: Words, letter: str, index: str) -> Label:
-        """Annex C's words with the symbol."""
+        """Annex C's words with the symbol; with the footnote where U was raised."""
         name = self.words(words)
-        return Label(joined(name.main, "  ", symbol(letter, index)), name.second)
+        mark = (Run(self.raised_mark, "sup"),) if f"{letter}_{index}" in self.raised else ()
+        return Label(joined(name.main, mark, "  ", symbol(letter, index)), name.second)
 
     def missing(self, name: Label, columns: int) -> tuple[Label, ...]:
         """The row of a quantity that was not calibrated."""
@@ -121,13 +136,17 @@ def rate_range(result: ScaleFactorResult) -> str:
 
 
 def scale_factor_table(results: Mapping[AxisName, ScaleFactorResult], writer: ResultWriter) -> Table:
-    """C.1, 1: K_x, K_y, K_z."""
+    """C.1, 1: K_x, K_y, K_z; where the job asks for ppm the deviation from 1 beside them."""
+    deviation = writer.units.scale_factor == "ppm"
+    million = joined("10", (Run("−6", "sup"),))
     units = {result.unit for result in results.values()}
     unit = unit_text(units.pop()) if len(units) == 1 else ()
     columns = (
         Column(writer.words(wording.QUANTITY)),
         writer.column(wording.VALUE, unit, strong=True),
-        writer.column(wording.EXPANDED, unit),
+        writer.column(wording.EXPANDED_SHORT if deviation else wording.EXPANDED, unit),
+        *((writer.column(conformity_wording.DEVIATION, million, strong=True),) if deviation else ()),
+        *((writer.column(wording.EXPANDED_SHORT, million),) if deviation else ()),
         writer.column(wording.COVERAGE),
         writer.column(wording.RANGE),
     )
@@ -141,23 +160,33 @@ def scale_factor_table(results: Mapping[AxisName, ScaleFactorResult], writer: Re
         value, expanded = writer.pair(result.K, result.uncertainty)
         if not unit:
             value = Label(joined(value.main, " ", unit_text(result.unit)))
-        rows.append((name, value, expanded, _k(result.uncertainty), same(rate_range(result))))
+        cells = [name, value, expanded]
+        if deviation:
+            cells += writer.pair(result.K - 1.0, result.uncertainty, 1e6)
+        rows.append((*cells, _k(result.uncertainty), same(rate_range(result))))
     return Table(columns, tuple(rows))
 
 
 def zero_offset_table(results: Mapping[AxisName, ZeroOffsetResult], writer: ResultWriter) -> Table:
-    """C.1, 2: heading, pitch, roll zero offset, °/s and °/h; where known, the repeatability beside them."""
+    """C.1, 2: heading, pitch, roll zero offset, °/s and °/h or as chosen; where known, the repeatability
+    beside them."""
+    chosen = writer.units.zero_offset
+    units = [_OFFSET_UNITS[chosen]] if chosen else list(_OFFSET_UNITS.values())
     repeatable = any(result.repeatability_dps is not None for result in results.values())
     columns = [
         writer.marked(wording.QUANTITY, "2"),
-        writer.column(wording.VALUE, "°/s", strong=True),
-        writer.column(wording.EXPANDED_SHORT, "°/s"),
-        writer.column(wording.VALUE, "°/h", strong=True),
-        writer.column(wording.EXPANDED_SHORT, "°/h"),
+        *(
+            column
+            for unit, _ in units
+            for column in (
+                writer.column(wording.VALUE, unit, strong=True),
+                writer.column(wording.EXPANDED_SHORT, unit),
+            )
+        ),
         writer.column(wording.COVERAGE),
     ]
     if repeatable:
-        columns.append(writer.column(wording.REPEATABILITY, "°/h"))
+        columns.append(writer.column(wording.REPEATABILITY, units[-1][0]))
     rows = []
     for axis in AXES:
         name = writer.quantity(wording.ZERO_OFFSET_NAMES[axis], "B", axis)
@@ -165,30 +194,28 @@ def zero_offset_table(results: Mapping[AxisName, ZeroOffsetResult], writer: Resu
         if result is None:
             rows.append(writer.missing(name, len(columns)))
             continue
-        row = [
-            name,
-            *writer.pair(result.B, result.uncertainty),
-            *writer.pair(result.B, result.uncertainty, PER_HOUR),
-            _k(result.uncertainty),
-        ]
+        row = [name]
+        for _, factor in units:
+            row += writer.pair(result.B, result.uncertainty, factor)
+        row.append(_k(result.uncertainty))
         if repeatable:
             known = result.repeatability_dps
-            row.append(same(DASH if known is None else significant(known * PER_HOUR)))
+            row.append(same(DASH if known is None else significant(known * units[-1][1])))
         rows.append(tuple(row))
     return Table(tuple(columns), tuple(rows))
 
 
 def misalignment_table(results: Mapping[str, MisalignmentResult], writer: ResultWriter) -> Table:
-    """C.1, 3: six misalignments as ratio (rad), ′ and °."""
-    columns = (
-        writer.marked(wording.QUANTITY, "1, 2, 3"),
-        writer.column(wording.VALUE, "rad", strong=True),
-        writer.column(wording.EXPANDED_SHORT, "rad"),
-        writer.column(wording.VALUE, "′", strong=True),
-        writer.column(wording.EXPANDED_SHORT, "′"),
-        writer.column(wording.VALUE, "°"),
-        writer.column(wording.COVERAGE),
-    )
+    """C.1, 3: six misalignments as ratio (rad), ′ and °, or in the unit chosen."""
+    chosen = writer.units.misalignment
+    units = [_ANGLE_UNITS[key] for key in ((chosen,) if chosen else ("rad", "arcmin"))]
+    columns = [writer.marked(wording.QUANTITY, "1, 2, 3")]
+    for unit, _ in units:
+        columns.append(writer.column(wording.VALUE, unit, strong=True))
+        columns.append(writer.column(wording.EXPANDED_SHORT, unit))
+    if not chosen:
+        columns.append(writer.column(wording.VALUE, "°"))
+    columns.append(writer.column(wording.COVERAGE))
     rows = []
     for key in MISALIGNMENT_KEYS:
         name = writer.quantity(wording.MISALIGNMENT_NAMES[key], "L", key)
@@ -196,16 +223,13 @@ def misalignment_table(results: Mapping[str, MisalignmentResult], writer: Result
         if result is None:
             rows.append(writer.missing(name, len(columns)))
             continue
-        rows.append(
-            (
-                name,
-                *writer.pair(result.L, result.uncertainty),
-                *writer.pair(result.L, result.uncertainty, ARCMIN),
-                writer.pair(result.L, result.uncertainty, DEGREE)[0],
-                _k(result.uncertainty),
-            )
-        )
-    return Table(columns, tuple(rows))
+        cells = [name]
+        for _, factor in units:
+            cells += writer.pair(result.L, result.uncertainty, factor)
+        if not chosen:
+            cells.append(writer.pair(result.L, result.uncertainty, DEGREE)[0])
+        rows.append((*cells, _k(result.uncertainty)))
+    return Table(tuple(columns), tuple(rows))
 
 
 def linearity_table(results: Mapping[AxisName, ScaleFactorResult], writer: ResultWriter) -> Table:

@@ -80,6 +80,7 @@ def _parser() -> argparse.ArgumentParser:
     evaluate = command("evaluate", "Reduces a recording: results with uncertainty, plots, original record.")
     evaluate.add_argument("bundle", type=Path, metavar="BUNDLE")
     evaluate.add_argument("--out", type=Path, metavar="DIR")
+    _strict_option(evaluate)
     _evaluation_options(evaluate)
 
     certificate = command("certificate", "Lays a certificate out from a result and a job.")
@@ -87,6 +88,7 @@ def _parser() -> argparse.ArgumentParser:
     certificate.add_argument("--job", type=Path, required=True, metavar="JOB.toml")
     certificate.add_argument("--out", type=Path, required=True, metavar="FILE.pdf")
     certificate.add_argument("--language", choices=("bilingual", "zh", "en"), default="bilingual")
+    _strict_option(certificate)
 
     verify = command("verify", "Who signed a certificate, when, and whether anything changed since.")
     verify.add_argument("file", type=Path, metavar="FILE.pdf")
@@ -135,6 +137,10 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _strict_option(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--strict", action="store_true", help="exit 1 where a value is out of specification")
+
+
 def _evaluation_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rates",
@@ -144,7 +150,10 @@ def _evaluation_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--uncertainty", choices=("gum", "annex-a"), default="gum")
     parser.add_argument(
-        "--job", type=Path, metavar="JOB.toml", help="job sheet whose standards' figures the budgets take"
+        "--job",
+        type=Path,
+        metavar="JOB.toml",
+        help="job sheet: its standards' figures for the budgets; evaluate: its limits and capability too",
     )
     parser.add_argument(
         "--trials",

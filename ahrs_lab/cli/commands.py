@@ -5,15 +5,22 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ahrs_lab.cli.progress import ProgressLine
 from ahrs_lab.cli.stop_signals import stop_signals
 from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle, read_result, write_files
-from ahrs_lab.metrology.conditions import BenchCapability
+from ahrs_lab.laboratory.judgement import Judged, judge_result
+from ahrs_lab.metrology.best_capability import BestCapability
+from ahrs_lab.metrology.conformity_json import conformity_to_json
+from ahrs_lab.metrology.requirements import Requirements
 from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.metrology.result_json import to_json
+from ahrs_lab.metrology.rounding import RoundingMode
+
+if TYPE_CHECKING:
+    from ahrs_lab.certificates.job_sheet import JobSheet
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -77,7 +84,7 @@ def _run(arguments: argparse.Namespace) -> int:
     from ahrs_lab.procedures.plan import load_plan
 
     plan = load_plan(arguments.plan)
-    capability = _capability(arguments)
+    job = _job(arguments)
     bench = load_bench(arguments.bench, speed=arguments.speed)
     try:
         with stop_signals(), ProgressLine(sys.stderr) as progress:
@@ -87,7 +94,7 @@ def _run(arguments: argparse.Namespace) -> int:
                 arguments.out,
                 on_event=progress.event,
                 settings=_settings(arguments),
-                capability=capability,
+                capability=job.capability if job else None,
                 again_from=arguments.again_from,
                 reason=arguments.reason,
             )
@@ -105,23 +112,47 @@ def _settings(arguments: argparse.Namespace) -> EvaluationSettings:
     )
 
 
-def _capability(arguments: argparse.Namespace) -> BenchCapability | None:
-    """The bench's figures as the job sheet has them, or None where there is no sheet."""
+def _job(arguments: argparse.Namespace) -> JobSheet | None:
+    """The job sheet of ``--job``, or None where there is none."""
     if arguments.job is None:
         return None
     from ahrs_lab.certificates.job_sheet import load_job_sheet
 
-    return load_job_sheet(arguments.job).capability
+    return load_job_sheet(arguments.job)
 
 
 def _evaluate(arguments: argparse.Namespace) -> int:
-    result = evaluate_bundle(arguments.bundle, _settings(arguments), _capability(arguments))
-    text = summary(result)
+    job = _job(arguments)
+    requirements = job.requirements if job else Requirements()
+    _refuse_strict_without_limits(arguments, requirements)
+    result = evaluate_bundle(arguments.bundle, _settings(arguments), job.capability if job else None)
+    judged = judge_result(result, requirements, job.best_capability if job else BestCapability())
+    text = "\n".join([summary(judged.shown, job.rounding if job else "half-even"), *judgement(judged)])
     if arguments.out is not None:
         files = write_files(result, arguments.out)
         text += "\n\nFiles: " + ", ".join(str(path) for path in files.values())
-    _say(arguments, to_json(result), text)
-    return 0
+    _say(arguments, {**to_json(result), **_judged_json(judged)}, text)
+    return _strict_code(arguments, judged)
+
+
+def _refuse_strict_without_limits(arguments: argparse.Namespace, requirements: Requirements) -> None:
+    if arguments.strict and not requirements.limits:
+        raise InputError("--strict needs limits: add [[limit]] tables to the JOB.toml given with --job.")
+
+
+def _judged_json(judged: Judged) -> dict[str, Any]:
+    """Keys beside the result's own, where there is something to say."""
+    data: dict[str, Any] = {}
+    if judged.conformity is not None:
+        data["conformity"] = conformity_to_json(judged.conformity)
+    if judged.raised:
+        data["raised_to_capability"] = list(judged.raised)
+    return data
+
+
+def _strict_code(arguments: argparse.Namespace, judged: Judged) -> int:
+    """1: done, but out of specification, which is an answer only where it was asked for."""
+    return 1 if arguments.strict and judged.conformity is not None and not judged.conformity.within else 0
 
 
 def _certificate(arguments: argparse.Namespace) -> int:
@@ -130,11 +161,14 @@ def _certificate(arguments: argparse.Namespace) -> int:
     from ahrs_lab.laboratory.evaluation import OutputFolder
 
     result, job = read_result(arguments.result), load_job_sheet(arguments.job)
+    _refuse_strict_without_limits(arguments, job.requirements)
+    judged = judge_result(result, job.requirements, job.best_capability)
     with OutputFolder(arguments.out.parent):
         certificate_pdf(result, job, arguments.out, arguments.language)
-    data = {"certificate": str(arguments.out), "number": job.certificate_number}
-    _say(arguments, data, f"Certificate {job.certificate_number}: {arguments.out} (not signed yet)")
-    return 0
+    data = {"certificate": str(arguments.out), "number": job.certificate_number, **_judged_json(judged)}
+    text = f"Certificate {job.certificate_number}: {arguments.out} (not signed yet)"
+    _say(arguments, data, "\n".join([text, *judgement(judged)]))
+    return _strict_code(arguments, judged)
 
 
 def _verify(arguments: argparse.Namespace) -> int:
@@ -176,12 +210,29 @@ def _replay(arguments: argparse.Namespace) -> int:
     return replay.run(arguments)
 
 
-def summary(result: CalibrationResult) -> str:
+def judgement(judged: Judged) -> list[str]:
+    """Each verdict as a person reads it in a terminal, the rule first; nothing where no limits are set."""
+    lines = [f"  U of {key} raised to the laboratory's best capability" for key in judged.raised]
+    conformity = judged.conformity
+    if conformity is None:
+        return lines
+    if conformity.statements:
+        lines.append(f"Conformity by {conformity.rule.name().text()}: {conformity.verdict}")
+    for one in conformity.statements:
+        low, high = ("" if bound is None else f"{bound:g}" for bound in (one.limit.low, one.limit.high))
+        lines.append(
+            f"  {one.key:8} {one.value:>14.6g} in [{low}, {high}] {one.limit.unit}: {one.verdict} "
+            f"(conformance probability {100.0 * one.conformance:.4g} %)"
+        )
+    return lines + [f"  {key:8} has a limit, but was not calibrated" for key in conformity.missing]
+
+
+def summary(result: CalibrationResult, rounding: RoundingMode = "half-even") -> str:
     """The result as a person reads it in a terminal: value ± U, rounded as on a certificate."""
     from ahrs_lab.metrology.rounding import round_to_uncertainty
 
     def line(name: str, value: float, expanded: float, unit: str, k: float) -> str:
-        rounded = round_to_uncertainty(value, expanded)
+        rounded = round_to_uncertainty(value, expanded, rounding)
         return f"  {name:8} {rounded.value:>14} ± {rounded.expanded:<12} {unit}  (k = {k:.2f})"
 
     lines = [f"{result.procedure}, recording {result.bundle_sha256[:16]}…"]

@@ -17,7 +17,10 @@ from ahrs_lab.laboratory import certification
 from ahrs_lab.laboratory.benches import bench_presets, plan_presets
 from ahrs_lab.laboratory.evaluation import OutputFolder, write_files
 from ahrs_lab.laboratory.headless import wait_for
+from ahrs_lab.metrology.conformity import DecisionRule
 from ahrs_lab.metrology.figures_json import figures_text
+from ahrs_lab.metrology.limits import Limit
+from ahrs_lab.metrology.requirements import Requirements, requirements_to_json
 from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.metrology.stated_figures import StatedFigure
 from ahrs_lab.recording.folder_lock import FolderLock
@@ -57,6 +60,16 @@ VERIFIER = PersonRow(
 APPROVER = PersonRow(
     0, "演示签发人", "Demo approver", "授权签字人", "Authorised signatory", frozenset({"approver"})
 )
+
+REQUIREMENTS = Requirements(
+    (
+        Limit("K", -5000.0, 5000.0, "ppm", nominal=1.0),
+        Limit("B", -30.0, 30.0, "deg/h"),
+        Limit("L", -10.0, 10.0, "arcmin"),
+    ),
+    DecisionRule("guard-band", probability=True),
+)
+"""Limits of the demonstration's customer; wide enough for its unit and for a short plan's U."""
 
 
 def prepare(laboratory: Laboratory) -> SignedIn | None:
@@ -199,6 +212,7 @@ def _draft(laboratory: Laboratory, plan: str, people: tuple[int, int, int], plan
         operator_id=people[0],
         verifier_id=people[1],
         approver_id=people[2],
+        limits_json=requirements_to_json(REQUIREMENTS),
     )
 
 

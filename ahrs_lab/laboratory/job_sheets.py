@@ -8,9 +8,11 @@ from typing import cast
 from ahrs_lab.certificates.job_sheet import DeviceUnderTest, JobSheet, Party, Person
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.best_capability import capability_from_json
 from ahrs_lab.metrology.capability import capability_of, figure_conflicts
 from ahrs_lab.metrology.conditions import BenchCapability, Standard, StandardKind, clause6_violations
 from ahrs_lab.metrology.figures_json import figures_from_text
+from ahrs_lab.metrology.requirements import requirements_from_json
 from ahrs_lab.metrology.result import CalibrationResult, Method
 from ahrs_lab.records.rows import JobRow, LaboratoryRow, PersonRow, StandardRow
 
@@ -117,6 +119,8 @@ def job_sheet(
         place_en=job.place_en,
         standards=standards_of(job),
         capability=capability(job),
+        requirements=requirements_from_json(job.limits_json),
+        best_capability=capability_from_json(laboratory.capability_json),
         uncertainty_method=method,
         accepted_violations=accepted_violations,
         demonstration=result.simulated,

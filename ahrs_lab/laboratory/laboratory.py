@@ -19,8 +19,11 @@ from ahrs_lab.laboratory import certification, job_sheets
 from ahrs_lab.laboratory.benches import bench_from_text, bench_presets, plan_from_text, plan_presets
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle
 from ahrs_lab.laboratory.home import home_folder
+from ahrs_lab.laboratory.judgement import Judged, judge_for_screen
 from ahrs_lab.laboratory.settings import Settings
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.best_capability import capability_from_json
+from ahrs_lab.metrology.requirements import requirements_from_json
 from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.metrology.result_json import from_json_text, to_json
 from ahrs_lab.procedures.plan import Plan
@@ -226,6 +229,17 @@ class Laboratory:
         """The current result, or None before there is one."""
         rows = self.records.jobs.results(number)
         return from_json_text(rows[-1].json) if rows else None
+
+    def judged(self, number: str) -> Judged | None:
+        """The current result as it is reported and judged; None before there is one."""
+        result = self.result(number)
+        if result is None:
+            return None
+        return judge_for_screen(
+            result,
+            requirements_from_json(self.job(number).limits_json),
+            capability_from_json(self.profile().capability_json),
+        )
 
     def segment_samples(self, number: str, file: str) -> Samples:
         """The raw samples of one segment file of the job's recording."""

@@ -17,8 +17,12 @@ from ahrs_lab.records import schema
 
 
 def _figures_and_limits(connection: Connection) -> None:
-    """1 to 2: what a standard's certificate states, and the limits of a job."""
-    for table, column in (("standards", "figures_json"), ("jobs", "limits_json")):
+    """1 to 2: what a standard's certificate states, the limits of a job, the laboratory's capability."""
+    for table, column in (
+        ("standards", "figures_json"),
+        ("jobs", "limits_json"),
+        ("laboratory", "capability_json"),
+    ):
         connection.execute(text(f"ALTER TABLE {table} ADD COLUMN {column} TEXT NOT NULL DEFAULT ''"))
 
 

@@ -38,12 +38,14 @@ class SignedIn:
 
 @dataclass(frozen=True)
 class LaboratoryRow:
-    """The laboratory as its certificates name it."""
+    """The laboratory as its certificates name it. ``capability_json``: the best measurement capability that
+    it states, a JSON text that the records keep as it is."""
 
     name: str
     name_en: str = ""
     address: str = ""
     address_en: str = ""
+    capability_json: str = ""
 
 
 @dataclass(frozen=True)

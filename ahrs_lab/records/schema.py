@@ -31,6 +31,8 @@ laboratory = Table(
     metadata,
     Column("id", Integer, primary_key=True),
     *(_text(name) for name in ("name", "name_en", "address", "address_en")),
+    # The best measurement capability it states; opaque here.
+    _text("capability_json"),
 )
 
 people = Table(

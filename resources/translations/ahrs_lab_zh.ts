@@ -360,6 +360,10 @@
         <translation>方差占比</translation>
     </message>
     <message>
+        <source>reported: U = {expanded} (CMC)</source>
+        <translation>报告值：U = {expanded}（CMC）</translation>
+    </message>
+    <message>
         <source>normal</source>
         <translation>正态</translation>
     </message>
@@ -780,6 +784,14 @@
     <message>
         <source>The plan follows JJF 1536-2015.</source>
         <translation>方案符合 JJF 1536-2015。</translation>
+    </message>
+    <message>
+        <source>Expanded uncertainty</source>
+        <translation>扩展不确定度</translation>
+    </message>
+    <message>
+        <source>U of {quantities} is raised to the laboratory&apos;s best measurement capability (CMC).</source>
+        <translation>{quantities} 的 U 已提高到实验室的最佳测量能力（CMC）。</translation>
     </message>
     <message>
         <source>Room during the run</source>
@@ -1303,6 +1315,10 @@
         <translation>台架</translation>
     </message>
     <message>
+        <source>Limits</source>
+        <translation>限值</translation>
+    </message>
+    <message>
         <source>Save</source>
         <translation>保存</translation>
     </message>
@@ -1418,6 +1434,108 @@
     <message>
         <source>How a good reply begins</source>
         <translation>正常应答的形式</translation>
+    </message>
+</context>
+<context>
+    <name>LimitLine</name>
+    <message>
+        <source>fraction</source>
+        <translation>比值</translation>
+    </message>
+    <message>
+        <source>K, all axes</source>
+        <translation>K，各轴</translation>
+    </message>
+    <message>
+        <source>B, all axes</source>
+        <translation>B，各轴</translation>
+    </message>
+    <message>
+        <source>L, all pairs</source>
+        <translation>L，各轴对</translation>
+    </message>
+    <message>
+        <source>Quantity</source>
+        <translation>量</translation>
+    </message>
+    <message>
+        <source>Lower limit</source>
+        <translation>下限</translation>
+    </message>
+    <message>
+        <source>Upper limit</source>
+        <translation>上限</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>单位</translation>
+    </message>
+    <message>
+        <source>Nominal value</source>
+        <translation>标称值</translation>
+    </message>
+    <message>
+        <source>Take this limit away</source>
+        <translation>删除此限值</translation>
+    </message>
+</context>
+<context>
+    <name>LimitsForm</name>
+    <message>
+        <source>Limits</source>
+        <translation>限值</translation>
+    </message>
+    <message>
+        <source>Decision rule</source>
+        <translation>判定规则</translation>
+    </message>
+    <message>
+        <source>Units on the certificate</source>
+        <translation>证书上的单位</translation>
+    </message>
+    <message>
+        <source>Without limits there is no statement of conformity. A limit of one axis goes before that of its group; a bound that is left empty is open.</source>
+        <translation>不设限值则不作符合性判定。单个轴的限值优先于整组的限值；空着的一侧不设限。</translation>
+    </message>
+    <message>
+        <source>Add a limit</source>
+        <translation>添加限值</translation>
+    </message>
+    <message>
+        <source>Rule (ILAC-G8)</source>
+        <translation>规则（ILAC-G8）</translation>
+    </message>
+    <message>
+        <source>r, multiple of U</source>
+        <translation>r（U 的倍数）</translation>
+    </message>
+    <message>
+        <source>State the conformance probability</source>
+        <translation>给出符合概率</translation>
+    </message>
+    <message>
+        <source>all the usual ones</source>
+        <translation>各常用单位</translation>
+    </message>
+    <message>
+        <source>Scale factor</source>
+        <translation>标度因数</translation>
+    </message>
+    <message>
+        <source>as delivered</source>
+        <translation>按输出</translation>
+    </message>
+    <message>
+        <source>also ppm from 1</source>
+        <translation>另给出与 1 之差（ppm）</translation>
+    </message>
+    <message>
+        <source>Zero offset</source>
+        <translation>零偏</translation>
+    </message>
+    <message>
+        <source>Misalignment</source>
+        <translation>失准角</translation>
     </message>
 </context>
 <context>
@@ -2138,6 +2256,26 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>英文地址</translation>
     </message>
     <message>
+        <source>Best measurement capability (CMC)</source>
+        <translation>最佳测量能力（CMC）</translation>
+    </message>
+    <message>
+        <source>Expanded uncertainties, k = 2: no U is reported below them. Empty: none is stated.</source>
+        <translation>扩展不确定度，k = 2：报告的 U 不小于此值。空着表示未声明。</translation>
+    </message>
+    <message>
+        <source>Scale factor, relative</source>
+        <translation>标度因数（相对）</translation>
+    </message>
+    <message>
+        <source>Zero offset, °/s</source>
+        <translation>零偏（°/s）</translation>
+    </message>
+    <message>
+        <source>Misalignment, rad</source>
+        <translation>失准角（rad）</translation>
+    </message>
+    <message>
         <source>Save</source>
         <translation>保存</translation>
     </message>
@@ -2322,38 +2460,6 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Results</source>
         <translation>结果</translation>
-    </message>
-    <message>
-        <source>Values: {count}</source>
-        <translation>数值：{count}</translation>
-    </message>
-    <message>
-        <source>uncertainty by annex A</source>
-        <translation>不确定度按附录 A</translation>
-    </message>
-    <message>
-        <source>uncertainty by the GUM</source>
-        <translation>不确定度按 GUM</translation>
-    </message>
-    <message>
-        <source>deviations from the standard: {count}</source>
-        <translation>与规范的偏离：{count}</translation>
-    </message>
-    <message>
-        <source>warnings: {count}</source>
-        <translation>警告：{count}</translation>
-    </message>
-    <message>
-        <source>measured on a simulated bench</source>
-        <translation>在仿真台架上测得</translation>
-    </message>
-    <message>
-        <source>Measured; no limits are set</source>
-        <translation>已测量；未设限值</translation>
-    </message>
-    <message>
-        <source>Certificate preview</source>
-        <translation>证书预览</translation>
     </message>
     <message>
         <source>Not measured yet</source>
@@ -3199,6 +3305,77 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     </message>
 </context>
 <context>
+    <name>Verdict</name>
+    <message>
+        <source>Certificate preview</source>
+        <translation>证书预览</translation>
+    </message>
+    <message>
+        <source>Conformity cannot be stated</source>
+        <translation>无法作出符合性判定</translation>
+    </message>
+    <message>
+        <source>Values: {count}</source>
+        <translation>数值：{count}</translation>
+    </message>
+    <message>
+        <source>Measured; no limits are set</source>
+        <translation>已测量；未设限值</translation>
+    </message>
+    <message>
+        <source>Not all that has a limit was calibrated</source>
+        <translation>有限值的参数未全部校准</translation>
+    </message>
+    <message>
+        <source>Pass: all values within their limits</source>
+        <translation>合格：全部数值符合限值</translation>
+    </message>
+    <message>
+        <source>Conditional pass</source>
+        <translation>有条件合格</translation>
+    </message>
+    <message>
+        <source>Conditional fail</source>
+        <translation>有条件不合格</translation>
+    </message>
+    <message>
+        <source>Fail: not all values conform</source>
+        <translation>不合格：有数值不符合</translation>
+    </message>
+    <message>
+        <source>{passed} of {count} pass</source>
+        <translation>{count} 项中 {passed} 项合格</translation>
+    </message>
+    <message>
+        <source>not calibrated: {quantities}</source>
+        <translation>未校准：{quantities}</translation>
+    </message>
+    <message>
+        <source>uncertainty by annex A</source>
+        <translation>不确定度按附录 A</translation>
+    </message>
+    <message>
+        <source>uncertainty by the GUM</source>
+        <translation>不确定度按 GUM</translation>
+    </message>
+    <message>
+        <source>deviations from the standard: {count}</source>
+        <translation>与规范的偏离：{count}</translation>
+    </message>
+    <message>
+        <source>warnings: {count}</source>
+        <translation>警告：{count}</translation>
+    </message>
+    <message>
+        <source>U raised to the CMC: {count}</source>
+        <translation>U 提高到 CMC：{count}</translation>
+    </message>
+    <message>
+        <source>simulated bench</source>
+        <translation>仿真台架</translation>
+    </message>
+</context>
+<context>
     <name>VerdictCard</name>
     <message>
         <source>A preview: nothing is signed yet.</source>
@@ -3310,6 +3487,42 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>roll</source>
         <translation>横滚</translation>
+    </message>
+    <message>
+        <source>Pass</source>
+        <translation>合格</translation>
+    </message>
+    <message>
+        <source>Conditional pass</source>
+        <translation>有条件合格</translation>
+    </message>
+    <message>
+        <source>Conditional fail</source>
+        <translation>有条件不合格</translation>
+    </message>
+    <message>
+        <source>Fail</source>
+        <translation>不合格</translation>
+    </message>
+    <message>
+        <source>Cond. pass</source>
+        <translation>有条件合格</translation>
+    </message>
+    <message>
+        <source>Cond. fail</source>
+        <translation>有条件不合格</translation>
+    </message>
+    <message>
+        <source>Simple acceptance</source>
+        <translation>简单接受</translation>
+    </message>
+    <message>
+        <source>Guard band w = r·U</source>
+        <translation>保护带 w = r·U</translation>
+    </message>
+    <message>
+        <source>Non-binary, guard band w = r·U</source>
+        <translation>非二元判定，保护带 w = r·U</translation>
     </message>
     <message>
         <source>The table&apos;s drive trips and brakes</source>

@@ -11,6 +11,10 @@ from hypothesis import strategies as st
 
 from ahrs_lab.certificates.job_sheet import JobSheet, load_job_sheet
 from ahrs_lab.errors import InputError
+from ahrs_lab.metrology.best_capability import BestCapability
+from ahrs_lab.metrology.conformity import DecisionRule
+from ahrs_lab.metrology.limits import Limit
+from ahrs_lab.metrology.requirements import ResultUnits
 from ahrs_lab.resource_files import resource_path
 
 DEMO = resource_path("jobs/demo.toml")
@@ -67,6 +71,19 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
         ("position_arcsec = 10.0", "position_arcsec = -1", "“capability.position_arcsec” must be a number"),
         ('certified = ["rate_relative"', 'certified = ["speed"', "“capability.certified” must be names of"),
         ('# seal = "seal.png"', 'seal = "/etc/passwd" #', "“seal” must be the name of a PNG image"),
+        ('quantity = "K"', 'quantity = "Q"', "“limit[1].quantity” must be one of K, K_x"),
+        ('unit = "ppm"', 'unit = "rad"', "“limit[1].unit” must be one of 1, (rad/s)"),
+        ("nominal = 1.0", "", "“limit[1]”: The limit of K is relative"),
+        ("low = -20.0", "low = 21", "“limit[2]”: The limit of B goes from 21.0 to 20.0"),
+        ("low = -20.0", "low = nan", "“limit[2].low” must be a number"),
+        ("low = -20.0", 'low = "-20"', "“limit[2].low” must be a number"),
+        ('quantity = "L"', 'quantity = "B"', "“limit[3].unit” must be one of deg/h"),
+        ('quantity = "L"\nlow', 'quantity = "L"\nlo', "“limit[3].lo” is not known here"),
+        ('kind = "guard-band"', 'kind = "guard"', "“decision_rule.kind” must be one of simple"),
+        ("r = 1.0", "r = 0", "“decision_rule”: The guard band is w = r·U"),
+        ("K = 1e-5", "K = -1e-5", "“laboratory.capability.K” must be a number, not negative"),
+        ("K = 1e-5", "Q = 1e-5", "“laboratory.capability.Q” is not known here"),
+        ("# [units]", '[units]\nzero_offset = "rpm"', "“units.zero_offset” must be one of deg/s, deg/h"),
         ("notes = []", 'notes = "none"', "“notes” must be a list of at most"),
         ('format = "ahrs-lab-job"', 'format = "other"', "is not a job sheet"),
         ("version = 1", "version = 2", "“version” must be a whole number from 1 to 1"),
@@ -79,6 +96,22 @@ def test_a_defect_is_named_with_its_place(tmp_path: Path, old: str, new: str, sa
     assert says in str(refused.value)
     assert str(refused.value).startswith("JOB.toml")
     assert "\n" not in refused.value.message.text("zh")
+
+
+def test_limits_rule_units_and_capability_are_read(tmp_path: Path) -> None:
+    job = read(tmp_path, changed("# [units]", '[units]\nzero_offset = "deg/h"'))
+    asked = job.requirements
+    assert asked.limits[0] == Limit("K", -5000.0, 5000.0, "ppm", nominal=1.0)
+    assert [one.quantity for one in asked.limits] == ["K", "B", "L"]
+    assert asked.rule == DecisionRule("guard-band", 1.0, probability=True)
+    assert asked.units == ResultUnits(zero_offset="deg/h")
+    assert job.best_capability == BestCapability(1e-5, 1e-5, 1e-6)
+
+
+def test_two_limits_of_one_quantity_are_refused(tmp_path: Path) -> None:
+    again = '[[limit]]\nquantity = "B"\nhigh = 1.0\nunit = "deg/s"\n\n[decision_rule]'
+    with pytest.raises(InputError, match="B has two limits"):
+        read(tmp_path, changed("[decision_rule]", again))
 
 
 def test_a_text_of_endless_length_is_refused(tmp_path: Path) -> None:

@@ -37,7 +37,7 @@ def columns(path: Path, table: str) -> set[str]:
 
 def test_version_1_keeps_everything(version_1: Path) -> None:
     with Records(version_1) as records:
-        assert records.registry.laboratory() == LaboratoryRow("校准实验室", "Laboratory")
+        assert records.registry.laboratory() == LaboratoryRow("校准实验室", "Laboratory", capability_json="")
         measured, ready = records.jobs.get("2026-0001"), records.jobs.get("2026-0002")
         assert (measured.state, ready.state) == ("measured", "ready")
         assert measured.standards == (STANDARD,)
@@ -56,6 +56,7 @@ def test_version_1_is_backed_up_and_has_version_2s_columns(version_1: Path) -> N
         assert columns(version_1, table.name) == {column.name for column in table.columns}
     assert "figures_json" not in columns(backup, "standards")
     assert "limits_json" not in columns(backup, "jobs")
+    assert "capability_json" not in columns(backup, "laboratory")
 
 
 def test_version_1_is_worked_on(version_1: Path) -> None:

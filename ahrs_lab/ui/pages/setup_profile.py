@@ -5,9 +5,15 @@ from __future__ import annotations
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
 
 from ahrs_lab.errors import AhrsLabError
+from ahrs_lab.metrology.best_capability import (
+    BestCapability,
+    capability_from_json,
+    capability_to_json,
+)
 from ahrs_lab.records.rows import LaboratoryRow
 from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.desk import Desk
+from ahrs_lab.ui.pages.jobs.limits_model import number_of
 from ahrs_lab.ui.pages.widgets.form import TextField, grid
 from ahrs_lab.ui.theme import CARD_MARGIN
 from ahrs_lab.ui.widgets import Label, PrimaryButton
@@ -25,16 +31,23 @@ class ProfilePanel(Translated):
         self._hint = Label(tone="muted", wrap=True)
         self.name, self.name_en = TextField(), TextField()
         self.address, self.address_en = TextField(), TextField()
+        self.K, self.B, self.L = TextField(), TextField(), TextField()
+        self._capability_head, self._capability_hint = Label(role="strong"), Label(tone="muted", wrap=True)
         self.save_button = PrimaryButton()
         self.save_button.clicked.connect(self.save)
         column.addWidget(self._hint)
         column.addLayout(grid((self.name, self.name_en), (self.address, self.address_en)))
+        column.addWidget(self._capability_head)
+        column.addWidget(self._capability_hint)
+        column.addLayout(grid((self.K, self.B, self.L)))
         row = QHBoxLayout()
         row.addWidget(self.save_button)
         row.addStretch(1)
         column.addLayout(row)
         column.addStretch(1)
-        for field in (self.name, self.name_en, self.address, self.address_en):
+        for field in (
+            self.name, self.name_en, self.address, self.address_en, self.K, self.B, self.L
+        ):  # fmt: skip
             field.edited.connect(lambda: self.save_button.setEnabled(True))
         self.refresh()
         self.retranslate()
@@ -46,17 +59,29 @@ class ProfilePanel(Translated):
         self.name_en.set_text(row.name_en)
         self.address.set_text(row.address)
         self.address_en.set_text(row.address_en)
+        try:
+            stated = capability_from_json(row.capability_json)
+        except AhrsLabError as error:
+            self._desk.tell(error)
+            stated = BestCapability()
+        for field, value in ((self.K, stated.K_relative), (self.B, stated.B_dps), (self.L, stated.L_rad)):
+            field.set_text(f"{value!r}" if value else "")
         self.save_button.setEnabled(False)
+
+    def _capability(self) -> str:
+        numbers = [number_of(one.text()) if one.text() else 0.0 for one in (self.K, self.B, self.L)]
+        return capability_to_json(BestCapability(*numbers))
 
     def save(self) -> None:
         """Into the records."""
         actor = self._desk.ask_actor(self)
         if actor is None:
             return
-        row = LaboratoryRow(
-            self.name.text(), self.name_en.text(), self.address.text(), self.address_en.text()
-        )
         try:
+            row = LaboratoryRow(
+                self.name.text(), self.name_en.text(), self.address.text(), self.address_en.text(),
+                self._capability(),
+            )  # fmt: skip
             self._desk.laboratory.set_profile(row, actor)
         except AhrsLabError as error:
             self._desk.tell(error)
@@ -72,4 +97,11 @@ class ProfilePanel(Translated):
         self.name_en.set_name(self.tr("Name in English"))
         self.address.set_name(self.tr("Address"))
         self.address_en.set_name(self.tr("Address in English"))
+        self._capability_head.setText(self.tr("Best measurement capability (CMC)"))
+        self._capability_hint.setText(
+            self.tr("Expanded uncertainties, k = 2: no U is reported below them. Empty: none is stated.")
+        )
+        self.K.set_name(self.tr("Scale factor, relative"))
+        self.B.set_name(self.tr("Zero offset, °/s"))
+        self.L.set_name(self.tr("Misalignment, rad"))
         self.save_button.setText(self.tr("Save"))

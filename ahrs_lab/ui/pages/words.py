@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication
 
+from ahrs_lab.metrology.conformity import RuleKind, Verdict
 from ahrs_lab.recording.orientation import Axis
 from ahrs_lab.records.rows import JobState, Role
 from ahrs_lab.ui.pages.widgets.chip import ChipKind
@@ -64,6 +65,36 @@ def axis_names() -> dict[Axis, str]:
         "x": translate("Words", "heading"),
         "y": translate("Words", "pitch"),
         "z": translate("Words", "roll"),
+    }
+
+
+def verdict_names() -> dict[Verdict, str]:
+    """What is said of a value against its limit; the best first."""
+    translate = QCoreApplication.translate
+    return {
+        "pass": translate("Words", "Pass"),
+        "conditional pass": translate("Words", "Conditional pass"),
+        "conditional fail": translate("Words", "Conditional fail"),
+        "fail": translate("Words", "Fail"),
+    }
+
+
+def short_verdict_names() -> dict[Verdict, str]:
+    """The same where there is little room."""
+    translate = QCoreApplication.translate
+    return verdict_names() | {
+        "conditional pass": translate("Words", "Cond. pass"),
+        "conditional fail": translate("Words", "Cond. fail"),
+    }
+
+
+def rule_names() -> dict[RuleKind, str]:
+    """Decision rules, as they are chosen."""
+    translate = QCoreApplication.translate
+    return {
+        "simple": translate("Words", "Simple acceptance"),
+        "guard-band": translate("Words", "Guard band w = r·U"),
+        "non-binary": translate("Words", "Non-binary, guard band w = r·U"),
     }
 
 

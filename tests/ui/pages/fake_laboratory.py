@@ -10,8 +10,11 @@ from pathlib import Path
 from ahrs_lab.certificates.verify import SignatureReport, VerificationReport
 from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory import job_sheets
+from ahrs_lab.laboratory.judgement import Judged, judge_for_screen
 from ahrs_lab.laboratory.settings import Settings
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.best_capability import capability_from_json
+from ahrs_lab.metrology.requirements import requirements_from_json
 from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.metrology.result_json import from_json, to_json
 from ahrs_lab.recording.samples import Samples
@@ -97,6 +100,14 @@ class FakeLaboratory:
     def result(self, number: str) -> CalibrationResult | None:
         rows = self.records.jobs.results(number)
         return from_json(json.loads(rows[-1].json)) if rows else None
+
+    def judged(self, number: str) -> Judged | None:
+        result = self.result(number)
+        if result is None:
+            return None
+        requirements = requirements_from_json(self.job(number).limits_json)
+        capability = capability_from_json(self.profile().capability_json)
+        return judge_for_screen(result, requirements, capability)
 
     def recalculate(self, number: str, settings: object, actor: SignedIn) -> CalibrationResult:
         result = self.result(number)

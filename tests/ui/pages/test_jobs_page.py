@@ -107,7 +107,7 @@ def test_another_name_is_another_customer(screens: Screens, qtbot: QtBot) -> Non
 def test_a_refused_setting_says_so_at_its_field_and_stops_the_start(screens: Screens, qtbot: QtBot) -> None:
     screens.desk.open(screens.number("ready"), "jobs")
     editor = screens.jobs.editor
-    editor.tabs.setCurrentIndex(2)
+    editor.tabs.setCurrentIndex(3)
     type_into(qtbot, line(screens, "dwell"), "12")
     assert "20" in line(screens, "dwell").error()
     assert line(screens, "turns").error() == ""

@@ -14,6 +14,7 @@ from ahrs_lab.ui.pages.desk import Desk
 from ahrs_lab.ui.pages.jobs import checks
 from ahrs_lab.ui.pages.jobs.before_run import BeforeRunCard, Readiness
 from ahrs_lab.ui.pages.jobs.bench_form import BenchForm
+from ahrs_lab.ui.pages.jobs.limits_form import LimitsForm
 from ahrs_lab.ui.pages.jobs.order_form import SIGNERS, OrderForm
 from ahrs_lab.ui.pages.jobs.plan_form import PlanForm
 from ahrs_lab.ui.pages.jobs.reason_dialog import ReasonDialog
@@ -26,6 +27,8 @@ from ahrs_lab.ui.widgets import Card, IconButton, Label, PrimaryButton, Secondar
 
 _JUDGE_MS = 150
 STANDARD_PLAN = "standard"
+_PLANNED = ("draft", "ready")
+"""States in which plan and bench can still be changed."""
 STARTABLE = ("draft", "ready", "running", "measured")
 
 
@@ -43,12 +46,9 @@ class JobEditor(Translated):
         self._judge_soon.setSingleShot(True)
         self._judge_soon.setInterval(_JUDGE_MS)
         self._judge_soon.timeout.connect(self._judge)
-        self.order, self.standards, self.plan, self.bench = (
-            OrderForm(),
-            StandardsForm(),
-            PlanForm(),
-            BenchForm(),
-        )
+        self.order, self.limits, self.standards = OrderForm(), LimitsForm(), StandardsForm()
+        self.plan, self.bench = PlanForm(), BenchForm()
+        self._forms = (self.order, self.limits, self.standards, self.plan, self.bench)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(CARD_MARGIN)
@@ -59,7 +59,7 @@ class JobEditor(Translated):
         self.before_run = BeforeRunCard()
         body.addWidget(self.before_run, 3)
         column.addLayout(body, 1)
-        for form in (self.order, self.standards, self.plan, self.bench):
+        for form in self._forms:
             form.edited.connect(self._edited)
         self.standards.edit_standards.connect(lambda: self._desk.workspace.go_to("setup"))
         self.retranslate()
@@ -87,7 +87,7 @@ class JobEditor(Translated):
         card = Card()
         self.tabs = Tabs()
         self._stack = QStackedWidget()
-        for form in (self.order, self.standards, self.plan, self.bench):
+        for form in self._forms:
             area = QScrollArea()
             area.setWidgetResizable(True)
             area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
@@ -145,24 +145,28 @@ class JobEditor(Translated):
     def draft(self) -> JobDraft:
         """What stands in the forms."""
         order = self.order.order()
+        # What was run is not written anew by a form that would write it otherwise.
+        run = self._job if self._job is not None and self._job.state not in _PLANNED else None
         return JobDraft(
             customer=order.customer,
             device=order.device,
             received=order.received,
             place=order.place,
             place_en=order.place_en,
-            plan_toml=self.plan.plan_text(),
-            bench_toml=self.bench.bench_text(),
+            plan_toml=run.plan_toml if run else self.plan.plan_text(),
+            bench_toml=run.bench_toml if run else self.bench.bench_text(),
             standard_ids=self.standards.chosen(),
             operator_id=order.people[0],
             verifier_id=order.people[1],
             approver_id=order.people[2],
+            limits_json=self.limits.text(),
         )
 
     def _show(self, draft: JobDraft) -> None:
         laboratory = self._desk.laboratory
         self.order.set_known(laboratory.records.registry.customers(), laboratory.people())
         self.order.set_order(draft)
+        self.limits.set_text(draft.limits_json)
         self.standards.set_standards(laboratory.standards(), draft.standard_ids)
         self.plan.set_presets(laboratory.plan_presets())
         self.plan.set_text(draft.plan_toml)
@@ -177,9 +181,10 @@ class JobEditor(Translated):
         signed = self._job is not None and bool(self._desk.laboratory.signatures(self._job.number))
         open_order = state in ("draft", "ready", "measured") and not signed
         self.order.set_editable(open_order)
+        self.limits.set_editable(open_order)
         self.standards.set_editable(open_order)
-        self.plan.set_editable(state in ("draft", "ready"))
-        self.bench.set_editable(state in ("draft", "ready"))
+        self.plan.set_editable(state in _PLANNED)
+        self.bench.set_editable(state in _PLANNED)
         self._chip.setVisible(self._job is not None)
         if self._job is not None:
             kind, icon = STATE_LOOKS[self._job.state]
@@ -228,6 +233,11 @@ class JobEditor(Translated):
 
     def _save(self, actor: SignedIn) -> bool:
         laboratory = self._desk.laboratory
+        wrong = self.limits.refusal()
+        if wrong is not None:
+            self.tabs.setCurrentIndex(self._forms.index(self.limits))
+            self._desk.workspace.notice("warn", wrong)
+            return False
         try:
             if self._job is None:
                 number = laboratory.create_job(self.draft(), actor)
@@ -274,7 +284,9 @@ class JobEditor(Translated):
 
     def retranslate(self) -> None:
         self.back.set_hint(self.tr("All jobs"))
-        self.tabs.set_texts(self.tr("Order"), self.tr("Standards"), self.tr("Plan"), self.tr("Bench"))
+        self.tabs.set_texts(
+            self.tr("Order"), self.tr("Limits"), self.tr("Standards"), self.tr("Plan"), self.tr("Bench")
+        )
         self.save_button.setText(self.tr("Save"))
         self.before_run.retranslate()
         self._permit()
@@ -294,4 +306,5 @@ def draft_of(job: JobRow) -> JobDraft:
         operator_id=job.operator.id if job.operator else 0,
         verifier_id=job.verifier.id if job.verifier else 0,
         approver_id=job.approver.id if job.approver else 0,
+        limits_json=job.limits_json,
     )

@@ -34,8 +34,9 @@ class BudgetView(Translated):
         column.addWidget(self._sum)
         column.addWidget(self.table, 1)
 
-    def show_quantity(self, quantity: Quantity, unit: Unit) -> None:
-        """The budget of ``quantity``; contributions in ``unit``."""
+    def show_quantity(self, quantity: Quantity, unit: Unit, reported: Quantity | None = None) -> None:
+        """The budget of ``quantity``; contributions in ``unit``. ``reported``: the same with its U raised to
+        the laboratory's capability."""
         uncertainty = quantity.uncertainty
         label = "" if unit.label == "1" else unit.label
         shown = show(quantity, unit)
@@ -44,6 +45,7 @@ class BudgetView(Translated):
             f"{quantity.symbol}{quantity.index} = {shown.value} ± {shown.expanded} {label}".rstrip()
             + f"   u = {significant(uncertainty.standard * abs(unit.factor))} {label}".rstrip()
             + f"   k = {number(uncertainty.coverage_factor, 2)}   {method}"
+            + (self._raised(reported, unit) if reported is not None else "")
         )
         columns = (
             Column(self.tr("Source"), stretch=True),
@@ -59,6 +61,10 @@ class BudgetView(Translated):
         shares = budget_shares(uncertainty)
         pairs = sorted(zip(uncertainty.rows, shares, strict=True), key=lambda pair: -pair[1])
         self.table.set_content(columns, [self._cells(row, share, unit) for row, share in pairs])
+
+    def _raised(self, reported: Quantity, unit: Unit) -> str:
+        shown = show(reported, unit)
+        return "   " + self.tr("reported: U = {expanded} (CMC)").format(expanded=shown.expanded)
 
     def _cells(self, row: BudgetRow, share: float, unit: Unit) -> tuple[Cell, ...]:
         distributions = {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
 
@@ -34,8 +36,8 @@ class FindingsView(Translated):
         column.addWidget(area)
         self.texts: list[str] = []
 
-    def show_result(self, result: CalibrationResult) -> None:
-        """Replace all lines."""
+    def show_result(self, result: CalibrationResult, raised: Sequence[str] = ()) -> None:
+        """Replace all lines. ``raised``: quantities whose U is the laboratory's capability."""
         while self._list.count() > 1:
             item = self._list.takeAt(0)
             widget = item.widget() if item is not None else None
@@ -53,6 +55,15 @@ class FindingsView(Translated):
             self._line("good", self.tr("The plan follows JJF 1536-2015."))
         for deviation in result.deviations:
             self._line("info", said(deviation))
+        if raised:
+            self._head(self.tr("Expanded uncertainty"))
+            keys = ", ".join(key.replace("_", "") for key in raised)
+            self._line(
+                "info",
+                self.tr(
+                    "U of {quantities} is raised to the laboratory's best measurement capability (CMC)."
+                ).format(quantities=keys),
+            )
         if result.environment is not None:
             room = result.environment
             self._head(self.tr("Room during the run"))

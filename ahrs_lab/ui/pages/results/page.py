@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QHBoxLayout, QMenu, QStackedWidget, QVBoxLayout, Q
 
 from ahrs_lab.errors import AhrsLabError
 from ahrs_lab.laboratory.evaluation import EvaluationSettings
-from ahrs_lab.metrology.result import CalibrationResult
+from ahrs_lab.laboratory.judgement import Judged
 from ahrs_lab.recording.samples import Samples
 from ahrs_lab.ui.page import Page
 from ahrs_lab.ui.pages.desk import Desk
@@ -17,6 +17,7 @@ from ahrs_lab.ui.pages.results.plot_view import PlotView
 from ahrs_lab.ui.pages.results.quantities import GROUPS, Group, Quantity, quantities
 from ahrs_lab.ui.pages.results.value_card import ValueCard
 from ahrs_lab.ui.pages.results.values_view import ValuesView
+from ahrs_lab.ui.pages.results.verdict import verdict_content
 from ahrs_lab.ui.pages.widgets.tabs import Tabs
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.widgets import Banner, Card, EmptyState, Label, ProgressBar, QuietButton
@@ -31,8 +32,10 @@ class ResultsPage(Page):
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk.workspace)
         self._desk = desk
-        self._result: CalibrationResult | None = None
+        self._judged: Judged | None = None
+        self._number = ""
         self._quantities: dict[str, Quantity] = {}
+        self._computed: dict[str, Quantity] = {}
         self._chosen = ""
         self._stack = QStackedWidget()
         self.outer.addWidget(self._stack)
@@ -139,35 +142,53 @@ class ResultsPage(Page):
         """Look at the open job's result again."""
         number = self._desk.number
         try:
-            result = self._desk.laboratory.result(number) if number else None
+            judged = self._desk.laboratory.judged(number) if number else None
         except AhrsLabError as error:
             self._desk.tell(error)
-            result = None
-        if result is not None and result == self._result:
+            judged = None
+        if judged is not None and judged == self._judged and number == self._number:
             self._permit()
             return
-        self.show_result(result)
+        self.show_judged(judged)
 
-    def show_result(self, result: CalibrationResult | None) -> None:
+    def show_judged(self, judged: Judged | None) -> None:
         """Everything of the page from one result; None: there is none yet."""
-        self._result = result
+        self._judged = judged
         if self._stack.currentIndex() != 1:
-            self._stack.setCurrentIndex(2 if result is not None else 0)
-        if result is None:
-            self._quantities = {}
+            self._stack.setCurrentIndex(2 if judged is not None else 0)
+        if judged is None:
+            self._quantities, self._computed = {}, {}
             self._name_empty()
             return
-        found = quantities(result)
+        found = quantities(judged.shown)
         self._quantities = {quantity.key: quantity for quantity in found}
+        self._computed = {quantity.key: quantity for quantity in quantities(judged.computed)}
         for group, card in self.cards.items():
-            card.set_quantities([quantity for quantity in found if quantity.group == group])
-        self.values.show_result(result)
-        self.findings.show_result(result)
-        self._say_verdict()
+            of_group = [quantity for quantity in found if quantity.group == group]
+            card.set_quantities(of_group, judged.conformity)
+        if self._number != self._desk.number:
+            self._number = self._desk.number
+            self._take_units(judged)
+        self._show_sheets()
         self._permit()
         if self._chosen not in self._quantities:
             self._chosen = found[0].key if found else ""
         self.choose(self._chosen)
+
+    def _take_units(self, judged: Judged) -> None:
+        """Begin with the units that the job asks for."""
+        units = judged.requirements.units
+        self.cards["scale_factor"].prefer_unit(units.scale_factor)
+        self.cards["zero_offset"].prefer_unit({"deg/s": "dps", "deg/h": "dph"}.get(units.zero_offset, ""))
+        self.cards["misalignment"].prefer_unit(units.misalignment)
+
+    def _show_sheets(self) -> None:
+        judged = self._judged
+        if judged is None:
+            return
+        self.values.show_result(judged.shown)
+        self.findings.show_result(judged.shown, judged.raised)
+        self.verdict.set_content(*verdict_content(judged))
 
     def choose(self, key: str) -> None:
         """Show plot and budget of this quantity."""
@@ -178,38 +199,20 @@ class ResultsPage(Page):
 
     def _show_details(self) -> None:
         quantity = self._quantities.get(self._chosen)
-        if quantity is None or self._result is None:
+        judged = self._judged
+        if quantity is None or judged is None:
             return
         unit = self.cards[quantity.group].unit()
         if unit is None:
             return
-        self.plot.show_quantity(quantity, unit, self._result)
-        self.budget.show_quantity(quantity, unit)
-        self.diagnosis.show_quantity(quantity, self._result)
-
-    def _say_verdict(self) -> None:
-        result = self._result
-        if result is None:
-            return
-        method = next((q.uncertainty.method for q in self._quantities.values()), "gum")
-        parts = [
-            self.tr("Values: {count}").format(count=len(self._quantities)),
-            self.tr("uncertainty by annex A") if method == "annex-a" else self.tr("uncertainty by the GUM"),
-            self.tr("deviations from the standard: {count}").format(count=len(result.deviations)),
-            self.tr("warnings: {count}").format(count=len(result.warnings)),
-        ]
-        if result.simulated:
-            parts.append(self.tr("measured on a simulated bench"))
-        self.verdict.set_content(
-            "warn" if result.warnings else "info",
-            self.tr("Measured; no limits are set"),
-            "  ·  ".join(parts),
-            self.tr("Certificate preview"),
-        )
+        self.plot.show_quantity(quantity, unit, judged.shown)
+        raised = quantity.key.replace(".", "_") in judged.raised
+        self.budget.show_quantity(self._computed[quantity.key], unit, quantity if raised else None)
+        self.diagnosis.show_quantity(quantity, judged.computed)
 
     def _permit(self) -> None:
         number = self._desk.number
-        if not number or self._result is None:
+        if not number or self._judged is None:
             return
         self.again.setVisible(
             self._desk.laboratory.job(number).state == "measured"
@@ -222,7 +225,7 @@ class ResultsPage(Page):
         if on:
             self._stack.setCurrentIndex(1)
         else:
-            self._stack.setCurrentIndex(2 if self._result is not None else 0)
+            self._stack.setCurrentIndex(2 if self._judged is not None else 0)
 
     def _recalculate(self, settings: EvaluationSettings) -> None:
         actor = self._desk.ask_actor(self)
@@ -237,9 +240,9 @@ class ResultsPage(Page):
             self._refused,
         )
 
-    def _recalculated(self, result: CalibrationResult) -> None:
+    def _recalculated(self, _result: object) -> None:
         self._set_busy(False)
-        self.show_result(result)
+        self.refresh()
         self._desk.changed()
 
     def _refused(self, error: AhrsLabError) -> None:
@@ -312,8 +315,6 @@ class ResultsPage(Page):
         rates = {"demanded": self.tr("demanded rates"), "table": self.tr("rates of the table")}
         for settings, action in self._ways.items():
             action.setText(f"{methods[settings.uncertainty]}, {rates[settings.rates]}")
-        if self._result is not None:
-            self.values.show_result(self._result)
-            self.findings.show_result(self._result)
-            self._say_verdict()
+        if self._judged is not None:
+            self._show_sheets()
             self._show_details()

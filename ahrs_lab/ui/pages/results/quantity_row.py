@@ -8,11 +8,15 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy
 
+from ahrs_lab.metrology.conformity import Statement
 from ahrs_lab.recording.orientation import Axis
+from ahrs_lab.ui.pages.results.limit_drawing import BAR_PX, ICON_PX, draw_judgement
 from ahrs_lab.ui.theme import AXIS_COLOURS, FontRole, font, tokens
 
 _LOWERED = 0.72
 """Size of an index against its symbol."""
+_BLOCK_GAP = 12.0
+"""Before the bar of limits."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,11 @@ class QuantityRow(QAbstractButton):
         self._value_role: FontRole = "title" if large else "strong"
         self._texts = RowTexts("", "", "", "", "")
         self._tail = 0.0
+        self._lead = 0.0
+        self._large = large
+        self._statement: Statement | None = None
+        self._word = ""
+        self._widest_word = 0.0
         self.setCheckable(True)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -43,9 +52,27 @@ class QuantityRow(QAbstractButton):
     def set_texts(self, texts: RowTexts) -> None:
         """Also what a screen reader says."""
         self._texts = texts
-        self.setAccessibleName(f"{texts.symbol}{texts.index} {texts.value} ± {texts.expanded}")
+        self._name()
         self.updateGeometry()
         self.update()
+
+    def set_judgement(self, statement: Statement | None, word: str) -> None:
+        """The verdict on this quantity and its word; None: it has no limit."""
+        self._statement = statement
+        self._word = word
+        self.setToolTip(word)
+        self._name()
+        self.updateGeometry()
+        self.update()
+
+    def verdict_word(self) -> str:
+        """Empty where there is no limit."""
+        return self._word if self._statement is not None else ""
+
+    def _name(self) -> None:
+        texts = self._texts
+        name = f"{texts.symbol}{texts.index} {texts.value} ± {texts.expanded}"
+        self.setAccessibleName(f"{name}, {self._word}" if self._statement is not None else name)
 
     def texts(self) -> RowTexts:
         """As they stand there."""
@@ -55,24 +82,39 @@ class QuantityRow(QAbstractButton):
         """Of ``± U`` in pixels; a card makes its lines' tails equal, so that the values stand in a column."""
         return QFontMetricsF(font("text")).horizontalAdvance(f"± {self._texts.expanded}")
 
-    def set_tail_width(self, width: float) -> None:
-        """See :meth:`tail_width`."""
-        self._tail = width
+    def lead_width(self) -> float:
+        """Of everything before ``± U`` in pixels."""
+        return 24 + self._head_width() + 16 + self._value_width()
+
+    def set_widths(self, tail: float, lead: float, word: float) -> None:
+        """The widest of the card's lines: ``± U``, what is before it, icon and word of the verdict."""
+        self._tail, self._lead, self._widest_word = tail, lead, word
         self.updateGeometry()
         self.update()
+
+    def _block_width(self) -> float:
+        """Of bar and verdict: what is wanted, or what is left; at least the icon."""
+        if self._widest_word == 0.0:
+            return 0.0
+        wanted = max(BAR_PX, self._widest_word) if self._large else BAR_PX + 10 + self._widest_word
+        tail = max(self._tail, self.tail_width())
+        left = self.width() - max(self._lead, self.lead_width()) - 8 - tail - _BLOCK_GAP - 10
+        return max(min(wanted, left), float(ICON_PX))
 
     def sizeHint(self) -> QSize:
         value = QFontMetricsF(font(self._value_role))
         text = QFontMetricsF(font("text"))
-        width = (
-            28 + self._head_width() + 16 + value.horizontalAdvance(self._texts.value) + 8
-            + max(self._tail, self.tail_width()) + 12
-        )  # fmt: skip
+        width = self.lead_width() + 8 + max(self._tail, self.tail_width()) + 16
+        if self._widest_word:
+            width += ICON_PX + _BLOCK_GAP
         height = max(value.height(), text.height()) + (8 if self._value_role == "title" else 2)
         return QSize(round(width), round(height))
 
     def minimumSizeHint(self) -> QSize:
         return self.sizeHint()
+
+    def _value_width(self) -> float:
+        return QFontMetricsF(font(self._value_role)).horizontalAdvance(self._texts.value)
 
     def _head_width(self) -> float:
         text = QFontMetricsF(font("text"))
@@ -119,6 +161,14 @@ class QuantityRow(QAbstractButton):
             painter.drawText(place, int(middle | Qt.AlignmentFlag.AlignLeft), text)
             left += width + gap
         right = whole.right() - 10
+        block = self._block_width()
+        if block:
+            place = QRectF(right - block, whole.top(), block, whole.height())
+            if self._statement is not None:
+                draw_judgement(
+                    painter, place, self._statement, self._word, below=self._large, widest=self._widest_word
+                )
+            right -= block + _BLOCK_GAP
         tail = max(self._tail, self.tail_width())
         painter.setFont(font("text"))
         painter.setPen(look.colour("muted"))

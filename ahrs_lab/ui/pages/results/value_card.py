@@ -7,9 +7,11 @@ from collections.abc import Sequence
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
+from ahrs_lab.metrology.conformity import Conformity
+from ahrs_lab.ui.pages.results.limit_drawing import word_width
 from ahrs_lab.ui.pages.results.quantities import Group, Quantity, Unit, show, units
 from ahrs_lab.ui.pages.results.quantity_row import QuantityRow, RowTexts
-from ahrs_lab.ui.pages.words import axis_names
+from ahrs_lab.ui.pages.words import axis_names, short_verdict_names, verdict_names
 from ahrs_lab.ui.widgets import Card, Label, SegmentedSwitch
 
 _ARROW = "→"
@@ -28,6 +30,7 @@ class ValueCard(Card):
         self._units: tuple[Unit, ...] = ()
         self._unit_key = ""
         self._quantities: tuple[Quantity, ...] = ()
+        self._conformity: Conformity | None = None
         self.rows: dict[str, QuantityRow] = {}
         self._nothing = Label(tone="faint", wrap=True)
         self.add(self._nothing)
@@ -39,9 +42,10 @@ class ValueCard(Card):
         self._nothing.setText(nothing)
         self._fill()
 
-    def set_quantities(self, quantities: Sequence[Quantity]) -> None:
-        """The group's, in annex C's order."""
+    def set_quantities(self, quantities: Sequence[Quantity], conformity: Conformity | None = None) -> None:
+        """The group's, in annex C's order, and what is said of their limits."""
         self._quantities = tuple(quantities)
+        self._conformity = conformity
         for row in self.rows.values():
             row.hide()
             row.deleteLater()
@@ -67,6 +71,11 @@ class ValueCard(Card):
             self._switch.set_current(key)
         self._fill()
         self.unit_changed.emit()
+
+    def prefer_unit(self, key: str) -> None:
+        """The unit to begin with; one that the card does not have changes nothing."""
+        if key in [unit.key for unit in self._units]:
+            self.switch_unit(key)
 
     def mark(self, key: str) -> None:
         """Show which line is the chosen one of the page."""
@@ -96,11 +105,19 @@ class ValueCard(Card):
         unit = self.unit()
         if unit is None:
             return
+        names = short_verdict_names() if self.group == "misalignment" else verdict_names()
         for quantity in self._quantities:
-            self.rows[quantity.key].set_texts(self._texts(quantity, unit))
-        widest = max((row.tail_width() for row in self.rows.values()), default=0.0)
-        for row in self.rows.values():
-            row.set_tail_width(widest)
+            row = self.rows[quantity.key]
+            row.set_texts(self._texts(quantity, unit))
+            said = self._conformity.of(quantity.key.replace(".", "_")) if self._conformity else None
+            row.set_judgement(said, names[said.verdict] if said else "")
+        rows = self.rows.values()
+        tail = max((row.tail_width() for row in rows), default=0.0)
+        lead = max((row.lead_width() for row in rows), default=0.0)
+        words = [row.verdict_word() for row in rows if row.verdict_word()]
+        widest = max((word_width(word) for word in words), default=0.0)
+        for row in rows:
+            row.set_widths(tail, lead, widest)
 
     @staticmethod
     def _texts(quantity: Quantity, unit: Unit) -> RowTexts:

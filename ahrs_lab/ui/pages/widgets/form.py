@@ -84,6 +84,10 @@ class Field(QWidget):
         self._hint = hint
         self._show_message()
 
+    def show_name(self, shown: bool) -> None:
+        """Whether the name stands above the editor; a column of fields needs it once."""
+        self._name.setVisible(shown)
+
     def set_error(self, text: str) -> None:
         """What is wrong, in red below; empty when all is well."""
         self._error = text

@@ -88,6 +88,11 @@ def annex_a_uncertainty(
             origin="data",
         ),
     )
+    return combine_annex_a(rows)
+
+
+def combine_annex_a(rows: Sequence[BudgetRow]) -> Uncertainty:
+    """u_c from the squares of the rows' contributions, U = 2·u_c."""
     standard = math.sqrt(sum(row.contribution**2 for row in rows))
     return Uncertainty(
         standard=standard,
@@ -95,5 +100,5 @@ def annex_a_uncertainty(
         coverage_factor=COVERAGE_FACTOR,
         dof=math.inf,
         method="annex-a",
-        rows=rows,
+        rows=tuple(rows),
     )

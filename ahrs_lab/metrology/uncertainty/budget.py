@@ -188,6 +188,21 @@ def combine(
     )
 
 
+def shares(uncertainty: Uncertainty) -> tuple[float, ...]:
+    """Each row's part e_i Σ r_ij e_j of the variance, in the rows' order: 1 in all, negative where a
+    correlation takes away more than the row brings; all 0 where nothing contributes."""
+    rows = uncertainty.rows
+    largest = max((row.contribution for row in rows), default=0.0)
+    if not 0.0 < largest < math.inf:
+        return (0.0,) * len(rows)
+    e = np.array([math.copysign(row.contribution / largest, row.sensitivity) for row in rows])
+    parts = e * e
+    if uncertainty.correlations:
+        parts = e * (correlation_matrix([row.symbol for row in rows], uncertainty.correlations) @ e)
+    total = math.fsum(parts.tolist())
+    return tuple(float(part) / total if total > 0.0 else 0.0 for part in parts)
+
+
 def _check(rows: Sequence[BudgetRow]) -> None:
     known: dict[str, float] = {}
     for row in rows:

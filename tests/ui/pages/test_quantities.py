@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from ahrs_lab.metrology.result import CalibrationResult
-from ahrs_lab.ui.pages.results.quantities import Quantity, budget_shares, quantities, show, units
+from ahrs_lab.ui.pages.results.quantities import Quantity, quantities, show, units
 from tests.ui.pages.sample_result import sample_result
 
 
@@ -63,9 +63,3 @@ def test_a_value_without_uncertainty_shows_a_dash_for_it() -> None:
     assert show(bare, units(bare)[0]).expanded == "–"
     lost = replace(found, value=math.nan)
     assert show(lost, units(lost)[0]).value == "–"
-
-
-def test_shares_of_a_budget_are_parts_of_the_variance() -> None:
-    shares = budget_shares(quantity("K.x").uncertainty)
-    assert math.isclose(sum(shares), 1.0)
-    assert shares[0] == pytest.approx(0.71, abs=0.001)

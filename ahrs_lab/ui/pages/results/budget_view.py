@@ -9,9 +9,10 @@ from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QStyledItemDelegate, QStyleOptionViewItem, QVBoxLayout
 
 from ahrs_lab.metrology.result import BudgetRow
+from ahrs_lab.metrology.uncertainty.budget import shares
 from ahrs_lab.ui.formatting import MINUS, number
 from ahrs_lab.ui.page import Translated
-from ahrs_lab.ui.pages.results.quantities import Quantity, Unit, budget_shares, show
+from ahrs_lab.ui.pages.results.quantities import Quantity, Unit, show
 from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
 from ahrs_lab.ui.theme import GAP, tokens
 from ahrs_lab.ui.translation import said
@@ -58,8 +59,7 @@ class BudgetView(Translated):
             Column(self.tr("From")),
             Column(self.tr("Share of the variance"), right=True),
         )
-        shares = budget_shares(uncertainty)
-        pairs = sorted(zip(uncertainty.rows, shares, strict=True), key=lambda pair: -pair[1])
+        pairs = sorted(zip(uncertainty.rows, shares(uncertainty), strict=True), key=lambda pair: -pair[1])
         self.table.set_content(columns, [self._cells(row, share, unit) for row, share in pairs])
 
     def _raised(self, reported: Quantity, unit: Unit) -> str:

@@ -14,11 +14,12 @@ from ahrs_lab.metrology.result import (
     ScaleFactorResult,
     ZeroOffsetResult,
 )
+from ahrs_lab.metrology.uncertainty.budget import shares
 from ahrs_lab.recording.orientation import AXES
 from ahrs_lab.recording.samples import Samples
 from ahrs_lab.ui.formatting import duration, number
 from ahrs_lab.ui.page import Translated
-from ahrs_lab.ui.pages.results.quantities import Quantity, Unit, budget_shares, show
+from ahrs_lab.ui.pages.results.quantities import Quantity, Unit, show
 from ahrs_lab.ui.pages.widgets.share_bars import ShareBars
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.translation import said
@@ -193,9 +194,9 @@ class PlotView(Translated):
             f"U = {shown.expanded} {shown.unit if shown.unit != '1' else ''}".rstrip()
             + f"   k = {number(uncertainty.coverage_factor, 2)}   ν = {_degrees(uncertainty.dof)}"
         )
-        shares = budget_shares(uncertainty)
+        parts = shares(uncertainty)
         self._shares.show_shares(
-            [(said(row.source), share) for row, share in zip(uncertainty.rows, shares, strict=True)],
+            [(said(row.source), share) for row, share in zip(uncertainty.rows, parts, strict=True)],
             self.tr("all others"),
         )
 

@@ -147,10 +147,3 @@ def show(quantity: Quantity, unit: Unit, mode: RoundingMode = "half-even") -> Sh
         return Shown(format_grouped(f"{value:.9f}"), DASH, unit.label)
     rounded = round_to_uncertainty(value, expanded, mode)
     return Shown(format_grouped(rounded.value), format_grouped(rounded.expanded), unit.label)
-
-
-def budget_shares(uncertainty: Uncertainty) -> tuple[float, ...]:
-    """Each row's part of the variance, 0…1, in the rows' order; all zero where nothing contributes."""
-    variances = [row.contribution**2 for row in uncertainty.rows]
-    total = math.fsum(variances)
-    return tuple(variance / total if total > 0.0 else 0.0 for variance in variances)

@@ -50,18 +50,21 @@ def evaluate_bundle(
 
 
 def write_files(result: CalibrationResult, folder: Path) -> dict[str, Path]:
-    """Leave ``result.json``, ``plots.pdf`` and ``original-record.pdf`` in ``folder``; returns where they
-    are."""
+    """Leave ``result.json``, ``budget.csv``, ``plots.pdf`` and ``original-record.pdf`` in ``folder``; returns
+    where they are."""
     from ahrs_lab.certificates.original_record import original_record_pdf
     from ahrs_lab.certificates.plots import plots_pdf
+    from ahrs_lab.laboratory.budget_csv import save_budget_csv
 
     files = {
         "result": folder / "result.json",
+        "budget": folder / "budget.csv",
         "plots": folder / "plots.pdf",
         "original_record": folder / "original-record.pdf",
     }
     with OutputFolder(folder):
         write_json(to_json(result), files["result"])
+        save_budget_csv(result, files["budget"])
         plots_pdf(result, files["plots"])
         original_record_pdf(result, files["original_record"])
     return files

@@ -6,6 +6,7 @@ The numbers are those printed in interfaces.md for a unit that was simulated out
 
 from __future__ import annotations
 
+import codecs
 import json
 import re
 import shutil
@@ -142,6 +143,7 @@ def test_evaluate_leaves_its_files_and_a_certificate_can_be_made_of_them(
     out = tmp_path / "out"
     result = evaluated(capsys, str(sample), "--out", str(out), "--uncertainty", uncertainty)
     assert json.loads((out / "result.json").read_text(encoding="utf-8")) == result
+    assert (out / "budget.csv").read_bytes().startswith(codecs.BOM_UTF8 + b"quantity ")
     for name in ("plots.pdf", "original-record.pdf"):
         assert (out / name).read_bytes().startswith(b"%PDF")
     job = tmp_path / "job.toml"

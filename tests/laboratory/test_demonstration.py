@@ -33,6 +33,7 @@ def test_everything_is_left_where_it_is_said(out: Path) -> None:
     for name in (
         "recording/recording.toml",
         "result.json",
+        "budget.csv",
         "plots.pdf",
         "original-record.pdf",
         "certificate.pdf",

@@ -322,46 +322,22 @@
     </message>
 </context>
 <context>
-    <name>BudgetView</name>
-    <message>
-        <source>annex A</source>
-        <translation>附录 A</translation>
-    </message>
-    <message>
-        <source>GUM</source>
-        <translation>GUM</translation>
-    </message>
+    <name>BudgetTable</name>
     <message>
         <source>Source</source>
         <translation>来源</translation>
     </message>
     <message>
-        <source>Type</source>
-        <translation>类别</translation>
-    </message>
-    <message>
-        <source>Distribution</source>
-        <translation>分布</translation>
-    </message>
-    <message>
-        <source>Unit</source>
-        <translation>单位</translation>
-    </message>
-    <message>
-        <source>Contribution</source>
-        <translation>分量</translation>
+        <source>Type, distribution</source>
+        <translation>类别，分布</translation>
     </message>
     <message>
         <source>From</source>
         <translation>依据</translation>
     </message>
     <message>
-        <source>Share of the variance</source>
+        <source>Share of variance</source>
         <translation>方差占比</translation>
-    </message>
-    <message>
-        <source>reported: U = {expanded} (CMC)</source>
-        <translation>报告值：U = {expanded}（CMC）</translation>
     </message>
     <message>
         <source>normal</source>
@@ -369,7 +345,7 @@
     </message>
     <message>
         <source>rectangular</source>
-        <translation>均匀</translation>
+        <translation>矩形</translation>
     </message>
     <message>
         <source>triangular</source>
@@ -397,7 +373,46 @@
     </message>
     <message>
         <source>an assumption</source>
-        <translation>假设</translation>
+        <translation>假定</translation>
+    </message>
+</context>
+<context>
+    <name>BudgetView</name>
+    <message>
+        <source>annex A</source>
+        <translation>附录 A</translation>
+    </message>
+    <message>
+        <source>GUM</source>
+        <translation>GUM</translation>
+    </message>
+    <message>
+        <source>reported: U = {expanded} (CMC)</source>
+        <translation type="unfinished">报告值：U = {expanded}（CMC）</translation>
+    </message>
+    <message>
+        <source>What if …</source>
+        <translation>假如…</translation>
+    </message>
+    <message>
+        <source>Type another u(x) and see U: double-click a row, or F2. The result stays as it is.</source>
+        <translation>输入另一个 u(x) 看 U 如何变化：双击一行，或按 F2。结果保持不变。</translation>
+    </message>
+    <message>
+        <source>Save as CSV …</source>
+        <translation>另存为 CSV…</translation>
+    </message>
+    <message>
+        <source>All budgets of this result, for a spreadsheet.</source>
+        <translation>本结果的全部不确定度预算，可用电子表格打开。</translation>
+    </message>
+    <message>
+        <source>Monte Carlo</source>
+        <translation>蒙特卡洛</translation>
+    </message>
+    <message>
+        <source>Show or hide the Monte Carlo check.</source>
+        <translation>显示或隐藏蒙特卡洛检查。</translation>
     </message>
 </context>
 <context>
@@ -1609,6 +1624,49 @@
     </message>
 </context>
 <context>
+    <name>MonteCarloView</name>
+    <message>
+        <source>Deviation from the value, {unit}</source>
+        <translation>与结果值之差，{unit}</translation>
+    </message>
+    <message>
+        <source>{trials} trials, u = {u}: ± U is validated (JCGM 101, clause 8, δ = {tolerance}).</source>
+        <translation>{trials} 次试验，u = {u}：± U 通过验证（JCGM 101 第 8 章，δ = {tolerance}）。</translation>
+    </message>
+    <message>
+        <source>Both ends of ± U lie within δ of the symmetric interval&apos;s.</source>
+        <translation>± U 的两端与对称区间的两端之差均在 δ 以内。</translation>
+    </message>
+    <message>
+        <source>{trials} trials, u = {u}: ± U is not validated (JCGM 101, clause 8, δ = {tolerance}).</source>
+        <translation>{trials} 次试验，u = {u}：± U 未通过验证（JCGM 101 第 8 章，δ = {tolerance}）。</translation>
+    </message>
+    <message>
+        <source>An end of ± U lies more than δ from the symmetric interval&apos;s.</source>
+        <translation>± U 的一端与对称区间的一端之差超过 δ。</translation>
+    </message>
+    <message>
+        <source>Annex A of the standard has no Monte Carlo check: it is made of uncertainties by the GUM.</source>
+        <translation>按规范附录 A 评定的不确定度没有蒙特卡洛检查：只有按 GUM 评定时才进行。</translation>
+    </message>
+    <message>
+        <source>This result has no Monte Carlo check: it was evaluated without one. Calculate again to see the histogram here.</source>
+        <translation>本结果没有蒙特卡洛检查：评定时未进行。重新计算后，此处将显示直方图。</translation>
+    </message>
+    <message>
+        <source>± U (GUM)</source>
+        <translation>± U（GUM）</translation>
+    </message>
+    <message>
+        <source>95 % symmetric</source>
+        <translation>95 % 对称区间</translation>
+    </message>
+    <message>
+        <source>95 % shortest</source>
+        <translation>95 % 最短区间</translation>
+    </message>
+</context>
+<context>
     <name>MountView</name>
     <message>
         <source>Noted, going on …</source>
@@ -2460,6 +2518,18 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Results</source>
         <translation>结果</translation>
+    </message>
+    <message>
+        <source>Save as</source>
+        <translation>另存为</translation>
+    </message>
+    <message>
+        <source>Tables for a spreadsheet (*.csv)</source>
+        <translation>电子表格文件 (*.csv)</translation>
+    </message>
+    <message>
+        <source>Saved as {path}.</source>
+        <translation>已另存为 {path}。</translation>
     </message>
     <message>
         <source>Not measured yet</source>
@@ -3408,6 +3478,17 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Verify again</source>
         <translation>重新验证</translation>
+    </message>
+</context>
+<context>
+    <name>WhatIfStrip</name>
+    <message>
+        <source>What if: U = {expanded} (k = {k}) instead of {before}. Not the result; nothing is stored.</source>
+        <translation>假如：U = {expanded}（k = {k}），而不是 {before}。这不是结果，不会保存。</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>还原</translation>
     </message>
 </context>
 <context>

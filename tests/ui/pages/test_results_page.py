@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QFileDialog, QLineEdit
 from pytestqt.qtbot import QtBot
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.evaluation import EvaluationSettings
+from ahrs_lab.metrology.result import MonteCarloCheck
+from ahrs_lab.ui.pages.results.quantities import Quantity, units
 from tests.ui.pages.conftest import Screens
 
 
@@ -96,6 +102,140 @@ def test_the_budget_lists_every_source_the_largest_first(screens: Screens, qtbot
     assert [table.texts(row)[-1] for row in range(7)] == [
         "71.0 %", "17.0 %", "7.0 %", "3.0 %", "1.5 %", "0.4 %", "0.1 %",
     ]  # fmt: skip
+
+
+def with_check(screens: Screens, qtbot: QtBot, *, validated: bool = True) -> Quantity:
+    """The zero offset of axis x, with a Monte Carlo check, shown on the tab of its budget."""
+    open_result(screens, qtbot)
+    screens.results.choose("B.x")
+    screens.results.tabs.setCurrentIndex(2)
+    found = screens.results._quantities["B.x"]
+    low, high = found.value - 1e-4, found.value + 1e-4
+    check = MonteCarloCheck(
+        200_000, 1, found.value, 5e-5, (low, high), (low, high), 1, 5e-6, validated, (low, high), (1, 4, 1)
+    )
+    checked = replace(found, uncertainty=replace(found.uncertainty, monte_carlo=check))
+    screens.results.budget.show_quantity(checked, units(checked)[0])
+    screens.settle(qtbot)
+    return checked
+
+
+def typed(screens: Screens, qtbot: QtBot, key: str, text: str, end: Qt.Key = Qt.Key.Key_Return) -> None:
+    """Into the cell u(x) of a row, as a person does it."""
+    table = screens.results.budget.table
+    table.choose(key)
+    QTest.keyClick(table, Qt.Key.Key_F2)
+    (editor,) = [editor for editor in table.findChildren(QLineEdit) if editor.isVisible()]
+    editor.setText(text)
+    QTest.keyClick(editor, end)
+    screens.settle(qtbot)
+
+
+def test_what_if_says_what_u_would_be_and_touches_nothing(screens: Screens, qtbot: QtBot) -> None:
+    open_result(screens, qtbot)
+    screens.results.choose("B.x")
+    screens.results.tabs.setCurrentIndex(2)
+    budget = screens.results.budget
+    before, total = screens.results._result, budget._sum.text()
+    rows = [budget.table.texts(row) for row in range(7)]
+    assert budget.strip.text() == ""
+    typed(screens, qtbot, budget.table.keys()[0], "0")
+    assert "instead of 0.350 °/h" in budget.strip.text()
+    assert "Not the result" in budget.strip.text()
+    assert "→ 0 °/s" in budget.table.texts(0)[2]
+    assert budget.table.texts(0)[-1] == "0.0 %"
+    assert budget._sum.text() == total
+    typed(screens, qtbot, budget.table.keys()[0], "")
+    assert budget.strip.text() == ""
+    typed(screens, qtbot, budget.table.keys()[1], "1E−5")
+    budget.strip.reset_button.click()
+    screens.settle(qtbot)
+    assert [budget.table.texts(row) for row in range(7)] == rows
+    assert screens.results._result == before == screens.laboratory.result(screens.number("measured"))
+
+
+def test_what_is_no_uncertainty_is_said_and_escape_restores(screens: Screens, qtbot: QtBot) -> None:
+    open_result(screens, qtbot)
+    budget = screens.results.budget
+    screens.results.tabs.setCurrentIndex(2)
+    key = budget.table.keys()[0]
+    typed(screens, qtbot, key, "much")
+    assert "“much” is not a number" in budget.strip.text()
+    typed(screens, qtbot, key, "-1")
+    assert "has to be 0 or more" in budget.strip.text()
+    budget.strip.reset_button.click()
+    typed(screens, qtbot, key, "5", Qt.Key.Key_Escape)
+    assert budget.strip.text() == ""
+
+
+def test_a_double_click_or_the_button_edits(screens: Screens, qtbot: QtBot) -> None:
+    open_result(screens, qtbot)
+    budget = screens.results.budget
+    screens.results.tabs.setCurrentIndex(2)
+    budget.ask_button.click()
+    editor = budget.table.findChild(QLineEdit)
+    assert editor is not None
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    screens.settle(qtbot)
+    budget.table.opened.emit(budget.table.keys()[2])
+    assert budget.table.current_key() == budget.table.keys()[2]
+    screens.settle(qtbot)
+
+
+def test_another_quantity_forgets_what_was_asked(screens: Screens, qtbot: QtBot) -> None:
+    open_result(screens, qtbot)
+    budget = screens.results.budget
+    budget.change(budget.table.keys()[0], "0")
+    screens.results.cards["scale_factor"].switch_unit("ppm")
+    assert "ppm" in budget.strip.text()  # another unit is the same question
+    screens.results.choose("B.y")
+    screens.results.choose("K.x")
+    assert budget.strip.text() == ""
+
+
+@pytest.mark.parametrize(("validated", "words"), [(True, "is validated"), (False, "is not validated")])
+def test_the_monte_carlo_check_stands_beside_the_budget(
+    screens: Screens, qtbot: QtBot, validated: bool, words: str
+) -> None:
+    with_check(screens, qtbot, validated=validated)
+    check = screens.results.budget.check
+    assert check.plot is not None
+    assert check.plot.isVisible()
+    assert words in check.verdict.text()
+    assert "200\u2009000 trials, u = 0.18 °/h" in check.verdict.text()
+    assert "δ = 0.018 °/h" in check.verdict.text()
+    assert check.ends["gum"].text() == "[10.76, 11.46] °/h"
+    assert check.ends["symmetric"].text() == "[10.75, 11.47] °/h"
+    screens.results.budget.check_button.click()
+    assert not check.isVisible()
+
+
+def test_a_result_without_a_check_says_so(screens: Screens, qtbot: QtBot) -> None:
+    open_result(screens, qtbot)
+    screens.results.tabs.setCurrentIndex(2)
+    check = screens.results.budget.check
+    assert "no Monte Carlo check" in check.nothing.text()
+    assert check.nothing.isVisible()
+    found = screens.results._quantities["K.x"]
+    annex = replace(found, uncertainty=replace(found.uncertainty, method="annex-a"))
+    check.show_quantity(annex, units(annex)[0])
+    assert "Annex A" in check.nothing.text()
+
+
+def test_the_budgets_are_saved_for_a_spreadsheet(
+    screens: Screens, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    open_result(screens, qtbot)
+    target = tmp_path / "budget.csv"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(target), ""))
+    screens.results.budget.save_button.click()
+    screens.settle(qtbot)
+    assert "table rate" in target.read_text(encoding="utf-8-sig")
+    assert screens.notices[-1][0] == "good"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(target / "no" / "b.csv"), ""))
+    screens.results.budget.save_button.click()
+    screens.settle(qtbot)
+    assert screens.notices[-1][0] == "bad"
 
 
 def test_the_sheet_has_both_usual_units(screens: Screens, qtbot: QtBot) -> None:

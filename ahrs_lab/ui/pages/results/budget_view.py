@@ -1,141 +1,156 @@
-"""The tab Uncertainty budget: every source of the chosen quantity's uncertainty, in the unit that is on."""
+"""The tab Uncertainty budget: every source of the chosen quantity's uncertainty in the unit that is on, what
+if one were better known, and beside it the Monte Carlo check."""
 
 from __future__ import annotations
 
-import math
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, Qt
-from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QStyledItemDelegate, QStyleOptionViewItem, QVBoxLayout
-
-from ahrs_lab.metrology.result import BudgetRow
-from ahrs_lab.metrology.uncertainty.budget import shares
-from ahrs_lab.ui.formatting import MINUS, number
+from ahrs_lab.errors import AhrsLabError
+from ahrs_lab.metrology.result import Uncertainty
+from ahrs_lab.ui.formatting import number
 from ahrs_lab.ui.page import Translated
+from ahrs_lab.ui.pages.results.budget_table import BudgetTable
+from ahrs_lab.ui.pages.results.monte_carlo_view import MonteCarloView
 from ahrs_lab.ui.pages.results.quantities import Quantity, Unit, show
-from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
-from ahrs_lab.ui.theme import GAP, tokens
+from ahrs_lab.ui.pages.results.what_if_model import WhatIfModel, degrees_of_freedom, significant
+from ahrs_lab.ui.pages.results.what_if_strip import WhatIfStrip
+from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.translation import said
-from ahrs_lab.ui.widgets import ElidedLabel
+from ahrs_lab.ui.widgets import ElidedLabel, Line, QuietButton
 
-_SHARE_COLUMN = 8
+_CHECK_PX = 352
 
 
 class BudgetView(Translated):
-    """Follows the quantity that is chosen on the page."""
+    """Follows the quantity that is chosen on the page; ``save_wanted`` asks for all budgets as a file."""
+
+    save_wanted = Signal()
 
     def __init__(self) -> None:
         super().__init__()
-        column = QVBoxLayout(self)
+        self._quantity: Quantity | None = None
+        self._unit: Unit | None = None
+        self._reported: Quantity | None = None
+        self._model = WhatIfModel()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(CARD_MARGIN)
+        row.addLayout(self._make_budget(), 1)
+        self.check = MonteCarloView()
+        self._check_side = QWidget()
+        side = QHBoxLayout(self._check_side)
+        side.setContentsMargins(0, 0, 0, 0)
+        side.setSpacing(CARD_MARGIN)
+        side.addWidget(Line(Qt.Orientation.Vertical))
+        side.addWidget(self.check)
+        self._check_side.setFixedWidth(_CHECK_PX)
+        row.addWidget(self._check_side)
+        self.retranslate()
+
+    def _make_budget(self) -> QVBoxLayout:
+        column = QVBoxLayout()
         column.setContentsMargins(0, 4, 0, 0)
         column.setSpacing(GAP)
+        head = QHBoxLayout()
+        head.setSpacing(0)
         self._sum = ElidedLabel(role="strong")
-        self.table = TextTable(selectable=False, compact=True)
-        self.table.setItemDelegateForColumn(_SHARE_COLUMN, _ShareDelegate(self.table))
-        column.addWidget(self._sum)
+        self.ask_button = QuietButton(icon="edit")
+        self.ask_button.clicked.connect(self._ask)
+        self.save_button = QuietButton(icon="export")
+        self.save_button.clicked.connect(self.save_wanted)
+        self.check_button = QuietButton(icon="results")
+        self.check_button.setCheckable(True)
+        self.check_button.setChecked(True)
+        self.check_button.toggled.connect(self._show_check)
+        head.addWidget(self._sum, 1)
+        for button in (self.ask_button, self.save_button, self.check_button):
+            head.addWidget(button)
+        self.strip = WhatIfStrip()
+        self.strip.reset_wanted.connect(self.reset)
+        self.table = BudgetTable()
+        self.table.edited.connect(self.change)
+        column.addLayout(head)
+        column.addWidget(self.strip)
         column.addWidget(self.table, 1)
+        return column
 
     def show_quantity(self, quantity: Quantity, unit: Unit, reported: Quantity | None = None) -> None:
-        """The budget of ``quantity``; contributions in ``unit``. ``reported``: the same with its U raised to
-        the laboratory's capability."""
-        uncertainty = quantity.uncertainty
+        """The budget of ``quantity``; contributions in ``unit``. What was asked of another one is gone.
+
+        ``reported``: the same with its U raised to the laboratory's capability.
+        """
+        self._quantity, self._unit, self._reported = quantity, unit, reported
+        self._model.follow(quantity)
+        self.check.show_quantity(quantity, unit)
+        self.strip.clear()
+        self._show()
+
+    def change(self, key: str, text: str) -> None:
+        """What if u(x) of this row were ``text``; empty restores it."""
+        try:
+            self._model.change(int(key), text)
+        except AhrsLabError as error:
+            self.strip.refuse(said(error.message))
+            return
+        self.strip.clear()
+        self._show()
+
+    def reset(self) -> None:
+        """Back to the result."""
+        self._model.reset()
+        self.strip.clear()
+        self._show()
+
+    def _show(self) -> None:
+        if self._quantity is None or self._unit is None:
+            return
+        found, before = self._model.uncertainty, self._quantity.uncertainty
+        self._sum.setText(self._sum_line(self._quantity, before, self._unit))
+        self.table.show_budget(found, before, self._unit)
+        if self._model.changes:
+            label = "" if self._unit.label == "1" else f" {self._unit.label}"
+            factor = abs(self._unit.factor)
+            self.strip.say(
+                f"{significant(found.expanded * factor)}{label}",
+                f"{significant(before.expanded * factor)}{label}",
+                number(found.coverage_factor, 2),
+            )
+
+    def _sum_line(self, quantity: Quantity, found: Uncertainty, unit: Unit) -> str:
         label = "" if unit.label == "1" else unit.label
         shown = show(quantity, unit)
-        method = self.tr("annex A") if uncertainty.method == "annex-a" else self.tr("GUM")
-        self._sum.setText(
-            f"{quantity.symbol}{quantity.index} = {shown.value} ± {shown.expanded} {label}".rstrip()
-            + f"   u = {significant(uncertainty.standard * abs(unit.factor))} {label}".rstrip()
-            + f"   k = {number(uncertainty.coverage_factor, 2)}   {method}"
-            + (self._raised(reported, unit) if reported is not None else "")
+        method = self.tr("annex A") if found.method == "annex-a" else self.tr("GUM")
+        parts = (
+            f"{quantity.symbol}{quantity.index} = {shown.value} ± {shown.expanded} {label}".rstrip(),
+            f"u = {significant(found.standard * abs(unit.factor))} {label}".rstrip(),
+            f"k = {number(found.coverage_factor, 2)}",
+            f"ν = {degrees_of_freedom(found.dof)}",
+            method,
+            *([self._raised(self._reported, unit)] if self._reported is not None else ()),
         )
-        columns = (
-            Column(self.tr("Source"), stretch=True),
-            Column(self.tr("Type")),
-            Column(self.tr("Distribution")),
-            Column("u(x)", right=True),
-            Column(self.tr("Unit")),
-            Column(self.tr("Contribution") + (f", {label}" if label else ""), right=True),
-            Column("ν", right=True),
-            Column(self.tr("From")),
-            Column(self.tr("Share of the variance"), right=True),
-        )
-        pairs = sorted(zip(uncertainty.rows, shares(uncertainty), strict=True), key=lambda pair: -pair[1])
-        self.table.set_content(columns, [self._cells(row, share, unit) for row, share in pairs])
+        return "   ".join(parts)
 
     def _raised(self, reported: Quantity, unit: Unit) -> str:
         shown = show(reported, unit)
-        return "   " + self.tr("reported: U = {expanded} (CMC)").format(expanded=shown.expanded)
+        return self.tr("reported: U = {expanded} (CMC)").format(expanded=shown.expanded)
 
-    def _cells(self, row: BudgetRow, share: float, unit: Unit) -> tuple[Cell, ...]:
-        distributions = {
-            "normal": self.tr("normal"),
-            "rectangular": self.tr("rectangular"),
-            "triangular": self.tr("triangular"),
-            "arcsine": self.tr("arcsine"),
-            "t": self.tr("Student's t"),
-        }
-        origins = {
-            "data": self.tr("the recording"),
-            "certificate": self.tr("certificate {number}").format(number=row.certificate)
-            if row.certificate
-            else self.tr("a certificate"),
-            "assumption": self.tr("an assumption"),
-        }
-        return (
-            Cell(said(row.source)),
-            Cell(row.kind),
-            Cell(distributions[row.distribution]),
-            Cell(significant(row.standard_uncertainty)),
-            Cell(row.unit.replace("deg", "°").replace("arcsec", "″"), "muted"),
-            Cell(significant(row.contribution * abs(unit.factor)), strong=True),
-            Cell("∞" if math.isinf(row.dof) or row.dof > 9999 else number(row.dof, 0)),
-            Cell(origins[row.origin], "warn" if row.origin == "assumption" else "text"),
-            Cell(f"{number(100.0 * share, 1)} %", sort=share),
-        )
+    def _ask(self) -> None:
+        keys = self.table.keys()
+        if keys:
+            self.table.edit_key(self.table.current_key() or keys[0])
+
+    def _show_check(self, on: bool) -> None:
+        self._check_side.setVisible(on)
 
     def retranslate(self) -> None:
-        """The page shows the quantity again."""
-
-
-def significant(value: float) -> str:
-    """Three significant digits; with a power of ten where there are too many zeros."""
-    if value == 0.0:
-        return "0"
-    if not math.isfinite(value):
-        return "∞"
-    power = math.floor(math.log10(abs(value)))
-    if -4 <= power < 6:
-        return number(value, max(0, 2 - power))
-    digits = number(value / 10.0**power, 2)
-    return f"{digits}E{MINUS if power < 0 else ''}{abs(power)}"
-
-
-class _ShareDelegate(QStyledItemDelegate):
-    """A bar with its per cent."""
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
-    ) -> None:
-        text = str(index.data(Qt.ItemDataRole.DisplayRole))
-        share = (
-            float(text.split("\u00a0", maxsplit=1)[0].split(" ", maxsplit=1)[0].replace("\u2009", "")) / 100.0
+        self.ask_button.setText(self.tr("What if …"))
+        self.ask_button.setToolTip(
+            self.tr("Type another u(x) and see U: double-click a row, or F2. The result stays as it is.")
         )
-        look = tokens()
-        place = QRectF(option.rect)
-        painter.save()
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        bar = QRectF(place.left() + 8, place.center().y() - 2, max(0.0, place.width() - 74), 4)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(look.colour("line"))
-        painter.drawRoundedRect(bar, 2, 2)
-        painter.setBrush(look.colour("accent"))
-        if share > 0.0:
-            painter.drawRoundedRect(QRectF(bar.left(), bar.top(), max(4.0, bar.width() * share), 4), 2, 2)
-        painter.setPen(look.colour("text"))
-        painter.setFont(option.font)
-        painter.drawText(
-            place.adjusted(0, 0, -8, 0),
-            int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter),
-            text,
-        )
-        painter.restore()
+        self.save_button.setText(self.tr("Save as CSV …"))
+        self.save_button.setToolTip(self.tr("All budgets of this result, for a spreadsheet."))
+        self.check_button.setText(self.tr("Monte Carlo"))
+        self.check_button.setToolTip(self.tr("Show or hide the Monte Carlo check."))
+        self.strip.clear()
+        self._show()

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QStackedWidget, QVBoxLayout, QWidget
+from pathlib import Path
+
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QMenu, QStackedWidget, QVBoxLayout, QWidget
 
 from ahrs_lab.errors import AhrsLabError
+from ahrs_lab.laboratory.budget_csv import save_budget_csv
 from ahrs_lab.laboratory.evaluation import EvaluationSettings
 from ahrs_lab.laboratory.judgement import Judged
 from ahrs_lab.recording.samples import Samples
@@ -112,6 +115,7 @@ class ResultsPage(Page):
             self._views.addWidget(view)
         for source in (self.plot, self.diagnosis):
             source.segment_wanted.connect(self._open_segment)
+        self.budget.save_wanted.connect(self._save_budgets)
         self.tabs.currentChanged.connect(self._views.setCurrentIndex)
         card.add(self._views, 1)
         return card
@@ -270,6 +274,20 @@ class ResultsPage(Page):
             self._refused,
             topic="segment",
         )
+
+    def _save_budgets(self) -> None:
+        result = self._result
+        if result is None:
+            return
+        name = str(Path.home() / f"{self._desk.number}-budget.csv")
+        path, _ = QFileDialog.getSaveFileName(
+            self, self.tr("Save as"), name, self.tr("Tables for a spreadsheet (*.csv)")
+        )
+        if path:
+            self._desk.run(self, lambda: save_budget_csv(result, Path(path)), self._saved, topic="save")
+
+    def _saved(self, target: Path) -> None:
+        self.workspace.notice("good", self.tr("Saved as {path}.").format(path=target))
 
     def _leave_empty(self) -> None:
         self.workspace.go_to("jobs")

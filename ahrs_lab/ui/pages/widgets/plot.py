@@ -102,10 +102,37 @@ class Plot(QWidget):
         points.sigClicked.connect(self._clicked)
         self._item.addItem(points)
 
-    def add_curve(self, x: Array, y: Array, colour: str, *, width: float = 1.0, dashed: bool = False) -> None:
+    def add_curve(
+        self,
+        x: Array,
+        y: Array,
+        colour: str,
+        *,
+        width: float = 1.0,
+        style: Qt.PenStyle = Qt.PenStyle.SolidLine,
+    ) -> None:
         """A line through the values."""
-        style = Qt.PenStyle.DashLine if dashed else Qt.PenStyle.SolidLine
         self._item.addItem(pg.PlotCurveItem(x=x, y=y, pen=pg.mkPen(colour, width=width, style=style)))
+
+    def add_bars(self, edges: Array, heights: Array, colour: str) -> None:
+        """A histogram: ``edges``, shape (n + 1,), about ``heights``, shape (n,)."""
+        tint = QColor(colour)
+        tint.setAlphaF(0.35)
+        self._item.addItem(
+            pg.PlotCurveItem(
+                x=edges,
+                y=heights,
+                stepMode="center",
+                fillLevel=0.0,
+                brush=pg.mkBrush(tint),
+                pen=pg.mkPen(None),
+            )
+        )
+
+    def hide_heights(self) -> None:
+        """No vertical axis: heights only compare with each other."""
+        self._item.hideAxis("left")
+        self._item.showGrid(x=False, y=False)
 
     def add_level(self, y: float, colour: str, *, dashed: bool = False) -> None:
         """A horizontal line across."""

@@ -19,24 +19,30 @@ _PADDING_PX = 26
 
 @dataclass(frozen=True)
 class Cell:
-    """A text with its tone (a colour name of the theme) and weight; ``sort`` orders better than the text."""
+    """A text with its tone (a colour name of the theme) and weight; ``sort`` orders better than the text and
+    is what a delegate draws; ``edit`` is what an editor begins with, None: it cannot be edited."""
 
     text: str
     tone: str = "text"
     strong: bool = False
     sort: str | float | None = None
+    edit: str | None = None
 
 
 @dataclass(frozen=True)
 class Column:
-    """A heading; ``right`` for numbers, ``stretch`` takes what is left."""
+    """A heading; ``right`` for numbers, ``stretch`` takes what is left, ``least`` is its smallest width in
+    pixels."""
 
     heading: str
     right: bool = False
     stretch: bool = False
+    least: int = 0
 
 
 class _Model(QAbstractTableModel):
+    edited = Signal(str, str)
+
     def __init__(self) -> None:
         super().__init__()
         self.columns: tuple[Column, ...] = ()
@@ -53,6 +59,10 @@ class _Model(QAbstractTableModel):
         cell = self.rows[index.row()][index.column()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole):
             return cell.text
+        if role == Qt.ItemDataRole.EditRole:
+            return cell.edit
+        if role == Qt.ItemDataRole.UserRole:
+            return cell.sort
         if role == Qt.ItemDataRole.ForegroundRole:
             return QColor(getattr(tokens(), cell.tone))
         if role == Qt.ItemDataRole.FontRole:
@@ -65,6 +75,18 @@ class _Model(QAbstractTableModel):
             )
             return side | Qt.AlignmentFlag.AlignVCenter
         return None
+
+    def flags(self, index: _Index) -> Qt.ItemFlag:
+        flags = super().flags(index)
+        editable = index.isValid() and self.rows[index.row()][index.column()].edit is not None
+        return flags | Qt.ItemFlag.ItemIsEditable if editable else flags
+
+    def setData(self, index: _Index, value: object, role: int = Qt.ItemDataRole.EditRole) -> bool:
+        """Tells what was typed; whoever listens describes the table again."""
+        if role != Qt.ItemDataRole.EditRole or str(value) == self.data(index, role):
+            return False
+        self.edited.emit(self.keys[index.row()], str(value))
+        return True
 
     def headerData(
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
@@ -99,10 +121,12 @@ def _sort_key(cell: Cell) -> tuple[int, float, str]:
 
 
 class TextTable(QTableView):
-    """Rows have keys. ``opened`` tells the key by double click or Enter, ``chosen`` by moving."""
+    """Rows have keys. ``opened`` tells the key by double click or Enter, ``chosen`` by moving; ``edited`` the
+    key and what was typed into its editable cell."""
 
     opened = Signal(str)
     chosen = Signal(str)
+    edited = Signal(str, str)
 
     def __init__(self, *, selectable: bool = True, sortable: bool = False, compact: bool = False) -> None:
         super().__init__()
@@ -133,6 +157,8 @@ class TextTable(QTableView):
         header.setStyleSheet("QHeaderView::section { padding: 6px 11px; }")
         header.setSectionsClickable(sortable)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        # Queued: the table is described again only when the editor has gone.
+        self._model.edited.connect(self.edited, Qt.ConnectionType.QueuedConnection)
         self.doubleClicked.connect(lambda index: self.opened.emit(self._model.keys[index.row()]))
         self.selectionModel().currentRowChanged.connect(self._moved)
 
@@ -168,6 +194,17 @@ class TextTable(QTableView):
         if key in self._model.keys:
             self.selectRow(self._model.keys.index(key))
 
+    def edit_key(self, key: str) -> None:
+        """Open the editor of the row's editable cell, where there is one and none is open."""
+        if self.state() == QAbstractItemView.State.EditingState:
+            return  # Return that ends an editor comes here too
+        row = self._model.keys.index(key)
+        for column, cell in enumerate(self._model.rows[row]):
+            if cell.edit is not None:
+                self.setCurrentIndex(self._model.index(row, column))
+                self.edit(self._model.index(row, column))
+                return
+
     def keys(self) -> list[str]:
         """In the order shown."""
         return list(self._model.keys)
@@ -188,7 +225,8 @@ class TextTable(QTableView):
                 cell = row[number]
                 widths.append((strong if cell.strong else plain).horizontalAdvance(cell.text))
             header.setSectionResizeMode(number, QHeaderView.ResizeMode.Interactive)
-            self.setColumnWidth(number, max(widths) + _PADDING_PX + (12 if self._sortable else 0))
+            width = max(widths) + _PADDING_PX + (12 if self._sortable else 0)
+            self.setColumnWidth(number, max(width, column.least))
 
     def _moved(self, current: QModelIndex, _previous: QModelIndex) -> None:
         if current.isValid():
@@ -197,5 +235,8 @@ class TextTable(QTableView):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.current_key():
             self.opened.emit(self.current_key())
+            return
+        if event.key() == Qt.Key.Key_F2 and self.current_key():
+            self.edit_key(self.current_key())
             return
         super().keyPressEvent(event)

@@ -92,6 +92,10 @@ class Photographer:
         self._settle(1.0)
         self.take("results")
         self._diagnosis()
+        results = screen.window.pages["results"]
+        assert isinstance(results, ResultsPage)
+        results.tabs.setCurrentIndex(2)
+        self.take("results-budget")
         go("certificate")
         self.until(lambda: not desk.background.busy)
         self.take("certificate")

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ahrs_lab.certificates import conformity_wording, wording
+from ahrs_lab.certificates.budget_annex import budget_annex
 from ahrs_lab.certificates.charts import position_blocks, residual_blocks
 from ahrs_lab.certificates.conformity_tables import conformity_blocks
 from ahrs_lab.certificates.documents import (
@@ -96,6 +97,7 @@ def certificate_content(
                 *_methods(result, job, mismatches, language),
             ),
             _annex(result, writer),
+            *((budget_annex(result, writer),) if job.budget_annex else ()),
         ),
         seal=seal_of(result, job),
     )

@@ -79,6 +79,8 @@ class JobSheet:
     accepted_violations: tuple[str, ...] = ()
     """Violations of clause 6 with the reason and the second person who accepted them; printed."""
     demonstration: bool = False
+    budget_annex: bool = False
+    """Whether every uncertainty budget is printed in full on annex pages."""
     seal: Path | None = None
     """Image (PNG) of the laboratory's calibration seal (clause 8 d); in JOB.toml relative to the file."""
 

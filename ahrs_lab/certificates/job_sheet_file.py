@@ -229,6 +229,7 @@ def read_job_sheet(path: Path) -> JobSheet:
         notes=top.texts("notes"),
         accepted_violations=top.texts("accepted_violations"),
         demonstration=top.flag("demonstration"),
+        budget_annex=top.flag("budget_annex"),
         seal=_seal(top, path),
     )
     people.finish()

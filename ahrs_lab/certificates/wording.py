@@ -261,6 +261,40 @@ BUDGET_CERTIFICATES = Words(
     "由标准器证书给出：{numbers}。", "Stated by the standards' certificates: {numbers}."
 )
 
+# Annex pages with the budgets in full
+BUDGETS_ANNEX = Words("附页：不确定度评定", "Annex: uncertainty budgets")
+SYMBOL = Words("符号", "Symbol")
+DISTRIBUTION = Words("分布", "Distribution")
+SHARE = Words("占比 / %", "Share / %")
+DISTRIBUTIONS = {
+    "normal": Words("正态", "normal"),
+    "rectangular": Words("矩形", "rectangular"),
+    "triangular": Words("三角", "triangular"),
+    "arcsine": Words("反正弦", "arcsine"),
+    "t": Words("t 分布", "t"),
+}
+BUDGETS_NOTE = Words(
+    "u(x) 为来源自身的标准不确定度；|c| u(x) 为其对结果的贡献；占比为其在 u_{c}^{2} 中所占部分；ν 为自由度，"
+    "合成行中为有效自由度。* 为假定值，无证书支持。",
+    "u(x): standard uncertainty of the source in its own unit; |c| u(x): its contribution to the result; "
+    "share: its part of u_{c}^{2}; ν: degrees of freedom, the effective ones in the line of u_{c}. "
+    "* assumed, not supported by a certificate.",
+)
+BUDGETS_CORRELATED = Words(
+    "相关的来源已按 JCGM 100 式 (13) 计入相关性；其占比可为负。",
+    "Sources that are correlated are combined by equation (13) of JCGM 100; a share may then be negative.",
+)
+CHECK = Words(
+    "蒙特卡洛法（JCGM 101），{trials} 次试验：平均值 {mean}，u = {u}；95 % 包含区间：对称 {symmetric}，最短 "
+    "{shortest}。",
+    "Monte Carlo (JCGM 101), {trials} trials: mean {mean}, u = {u}; 95 % coverage intervals: symmetric "
+    "{symmetric}, shortest {shortest}.",
+)
+CHECK_VALIDATED = Words("±U 经第 8 章验证（δ = {delta}）。", "± U is validated by clause 8 (δ = {delta}).")
+CHECK_NOT_VALIDATED = Words(
+    "±U 未通过第 8 章的验证（δ = {delta}）。", "± U is not validated by clause 8 (δ = {delta})."
+)
+
 # Original record (原始记录) and plots
 RECORD_TITLE = Words("校准原始记录", "ORIGINAL RECORD OF CALIBRATION")
 PLOTS_TITLE = Words("校准数据图", "PLOTS OF THE CALIBRATION")

@@ -89,6 +89,9 @@ def _parser() -> argparse.ArgumentParser:
     certificate.add_argument("--out", type=Path, required=True, metavar="FILE.pdf")
     certificate.add_argument("--language", choices=("bilingual", "zh", "en"), default="bilingual")
     _strict_option(certificate)
+    certificate.add_argument(
+        "--budget-annex", action="store_true", help="every uncertainty budget in full on annex pages"
+    )
 
     verify = command("verify", "Who signed a certificate, when, and whether anything changed since.")
     verify.add_argument("file", type=Path, metavar="FILE.pdf")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ahrs_lab.cli.progress import ProgressLine
@@ -161,6 +162,8 @@ def _certificate(arguments: argparse.Namespace) -> int:
     from ahrs_lab.laboratory.evaluation import OutputFolder
 
     result, job = read_result(arguments.result), load_job_sheet(arguments.job)
+    if arguments.budget_annex:
+        job = replace(job, budget_annex=True)
     _refuse_strict_without_limits(arguments, job.requirements)
     judged = judge_result(result, job.requirements, job.best_capability)
     with OutputFolder(arguments.out.parent):

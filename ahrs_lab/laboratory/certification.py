@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -60,14 +61,17 @@ def _sheet(laboratory: Laboratory, number: str, result: CalibrationResult, issue
     )
 
 
-def draft(laboratory: Laboratory, number: str, language: CertificateLanguage) -> Path:
+def draft(
+    laboratory: Laboratory, number: str, language: CertificateLanguage, *, budget_annex: bool = False
+) -> Path:
     """The unsigned certificate in the job's folder, for looking at."""
     from ahrs_lab.certificates.certificate import certificate_pdf
 
     result = _measured(laboratory, number)
     target = laboratory.folder(number) / f"preview-{language}.pdf"
     with OutputFolder(target.parent):
-        certificate_pdf(result, _sheet(laboratory, number, result, issued=None), target, language)
+        sheet = replace(_sheet(laboratory, number, result, issued=None), budget_annex=budget_annex)
+        certificate_pdf(result, sheet, target, language)
     return target
 
 
@@ -99,8 +103,11 @@ def sign(
     actor: SignedIn,
     password: str,
     language: CertificateLanguage,
+    *,
+    budget_annex: bool = False,
 ) -> Path:
-    """Sign as ``role`` with the actor's own key; the records decide who may, in which order.
+    """Sign as ``role`` with the actor's own key; the records decide who may, in which order. ``language`` and
+    ``budget_annex`` are the first signature's to choose: it fixes the content.
 
     The file on disk has to be the one that the last signature left: its digest is compared before another is
     added.
@@ -118,7 +125,8 @@ def sign(
         else:
             result = _measured(laboratory, number)
             today = date.today()  # noqa: DTZ011  the date on a certificate is the laboratory's own
-            certificate_pdf(result, _sheet(laboratory, number, result, issued=today), target, language)
+            content = replace(_sheet(laboratory, number, result, issued=today), budget_annex=budget_annex)
+            certificate_pdf(result, content, target, language)
         sheet = _sheet(laboratory, number, _measured(laboratory, number), issued=None)
         identity = _identity(laboratory, actor, password)
         person: Person = getattr(sheet, role)

@@ -252,9 +252,11 @@ class Laboratory:
 
     # certificates ---------------------------------------------------------------------------------------
 
-    def draft_certificate(self, number: str, language: CertificateLanguage = "bilingual") -> Path:
+    def draft_certificate(
+        self, number: str, language: CertificateLanguage = "bilingual", *, budget_annex: bool = False
+    ) -> Path:
         """The certificate as the customer will see it, not signed: for looking at."""
-        return certification.draft(self, number, language)
+        return certification.draft(self, number, language, budget_annex=budget_annex)
 
     def original_record(self, number: str) -> Path:
         """The original record (原始记录) of the current result as PDF."""
@@ -267,9 +269,11 @@ class Laboratory:
         actor: SignedIn,
         password: str,
         language: CertificateLanguage = "bilingual",
+        *,
+        budget_annex: bool = False,
     ) -> Path:
         """Sign the job's certificate as ``role``; the first signature fixes its content. Returns the PDF."""
-        return certification.sign(self, number, role, actor, password, language)
+        return certification.sign(self, number, role, actor, password, language, budget_annex=budget_annex)
 
     def certificate(self, number: str) -> Path | None:
         """The certificate that is being or has been signed, or None before the first signature."""

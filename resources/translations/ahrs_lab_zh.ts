@@ -481,6 +481,14 @@
         <translation>中英双语</translation>
     </message>
     <message>
+        <source>Uncertainty budgets</source>
+        <translation>附不确定度评定表</translation>
+    </message>
+    <message>
+        <source>With the uncertainty budgets as annex pages</source>
+        <translation>附不确定度评定页</translation>
+    </message>
+    <message>
         <source>Smaller</source>
         <translation>缩小</translation>
     </message>

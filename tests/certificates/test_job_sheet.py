@@ -44,6 +44,7 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
     assert job.approver.position_en == "Authorised signatory"
     assert job.recalibration_months == 24
     assert job.demonstration
+    assert not job.budget_annex
 
 
 @pytest.mark.parametrize(
@@ -58,6 +59,7 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
         ("received = 2026-11-20", "received = 2026-11-25", "“calibrated” (2026-11-22) is before"),
         ('rounding = "half-even"', 'rounding = "down"', "“rounding” must be one of half-even, up"),
         ("demonstration = true", "demonstration = 1", "“demonstration” must be true or false"),
+        ("budget_annex = false", 'budget_annex = "yes"', "“budget_annex” must be true or false"),
         ("recalibration_months = 24", "recalibration_months = 0", "a whole number from 1 to 120"),
         ("recalibration_months = 24", "recalibration_months = true", "a whole number from 1 to 120"),
         ("[customer]", "[custumer]", "“customer” is missing"),

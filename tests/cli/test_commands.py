@@ -157,6 +157,10 @@ def test_evaluate_leaves_its_files_and_a_certificate_can_be_made_of_them(
     assert main(words) == 0
     assert json.loads(capsys.readouterr().out)["certificate"] == str(target)
     assert target.read_bytes().startswith(b"%PDF")
+    plain = len(target.read_bytes())
+    assert main([*words, "--budget-annex"]) == 0
+    capsys.readouterr()
+    assert len(target.read_bytes()) > plain
     # Nobody has signed it: the answer is no, not an error.
     assert main(["verify", str(target), "--json"]) == 1
     assert json.loads(capsys.readouterr().out)["signatures"] == []

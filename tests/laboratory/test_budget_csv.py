@@ -89,7 +89,7 @@ def test_every_number_comes_back_to_the_last_bit(tmp_path: Path) -> None:
         assert line["distribution"].split(" ")[0] == row.distribution
         assert line["origin"].split(" ")[0] == row.origin
     assert sum(float(line["share"]) for line in found[:2]) == pytest.approx(1.0)
-    assert found[2]["symbol"], float(found[2]["estimate"]) == ("r(F, q)", -0.25)
+    assert (found[2]["symbol"], float(found[2]["estimate"])) == ("r(F, q)", -0.25)
     total = found[3]
     assert float(total["estimate"]) == wanted.scale_factor["x"].K
     assert [float(total[name]) for name in ("u", "dof", "k", "U")] == [

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import pikepdf
 import pytest
 
 from ahrs_lab.certificates.content import mismatches_of
@@ -94,6 +95,21 @@ def unsigned(measured: tuple[Path, str]) -> Iterator[None]:
     yield
     for path in (measured[0] / "jobs" / measured[1]).glob("AL-*"):
         path.unlink()
+
+
+def test_the_first_signature_fixes_whether_the_budgets_are_annexed(desk: Desk) -> None:
+    def pages(file: Path) -> int:
+        with pikepdf.open(file) as pdf:
+            return len(pdf.pages)
+
+    laboratory, number = desk.laboratory, desk.number
+    annexed = pages(laboratory.draft_certificate(number, budget_annex=True))
+    assert pages(laboratory.draft_certificate(number)) < annexed
+    file = laboratory.sign(number, "operator", desk.person("operator"), PASSWORD, budget_annex=True)
+    assert pages(file) == annexed
+    desk.sign("verifier")
+    assert pages(file) == annexed
+    assert laboratory.verify(file).valid
 
 
 def test_the_three_sign_in_their_order_and_the_file_verifies(desk: Desk) -> None:

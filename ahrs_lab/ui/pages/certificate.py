@@ -20,6 +20,7 @@ from ahrs_lab.ui.pages.desk import Desk
 from ahrs_lab.ui.pages.jobs.send_back_dialog import SendBackDialog
 from ahrs_lab.ui.pages.pdf_pages import PdfPicture, draw_pages
 from ahrs_lab.ui.pages.widgets.pdf_view import PdfView
+from ahrs_lab.ui.pages.widgets.tick_box import TickBox
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.widgets import (
     Card,
@@ -74,6 +75,8 @@ class CertificatePage(Page):
         head.setSpacing(GAP)
         self.language = SegmentedSwitch([("bilingual", ""), ("zh", "中文"), ("en", "English")], "bilingual")
         self.language.changed.connect(lambda _key: self._render())
+        self.budget_annex = TickBox()
+        self.budget_annex.toggled.connect(lambda _on: self._render())
         self._page_label = Label(tone="muted")
         self._busy = ProgressBar()
         self._busy.setFixedWidth(100)
@@ -83,6 +86,7 @@ class CertificatePage(Page):
         self._larger.clicked.connect(lambda: self._zoom(1))
         self._file = ElidedLabel(role="strong")
         head.addWidget(self.language)
+        head.addWidget(self.budget_annex)
         head.addWidget(self._file, 1)
         for widget in (self._busy, self._page_label, self._smaller, self._larger):
             head.addWidget(widget, 0, Qt.AlignmentFlag.AlignVCenter)
@@ -170,6 +174,7 @@ class CertificatePage(Page):
             self.panels[place.role].show_place(place)
         signed = bool(signatures)
         self.language.setVisible(not signed)
+        self.budget_annex.setVisible(not signed)
         self._file.setText(f"{self._job.certificate_number}.pdf" if signed else "")
         may_send_back = self._job.state == "checked" and actor is not None and "approver" in actor.roles
         self.send_back.setVisible(may_send_back)
@@ -187,12 +192,13 @@ class CertificatePage(Page):
         if self._job is None:
             return
         number, laboratory, chosen = self._job.number, self._desk.laboratory, self._chosen_language()
+        annex = self.budget_annex.isChecked()
         scale = min(max(self.view.wanted_width() / _A4_POINTS, 1.0), _SHARPEST)
         self._set_busy(True)
 
         def work() -> tuple[PdfPicture, VerificationReport | None]:
             signed = laboratory.certificate(number)
-            file = signed or laboratory.draft_certificate(number, chosen)
+            file = signed or laboratory.draft_certificate(number, chosen, budget_annex=annex)
             report = laboratory.verify(file) if signed else None
             return draw_pages(file, scale), report
 
@@ -229,7 +235,15 @@ class CertificatePage(Page):
         actor = self._desk.ask_actor(self)
         if actor is None or self._job is None:
             return
-        dialog = SignDialog(self._desk, self._job.number, role, actor, self._chosen_language(), self)
+        dialog = SignDialog(
+            self._desk,
+            self._job.number,
+            role,
+            actor,
+            self._chosen_language(),
+            self,
+            budget_annex=self.budget_annex.isChecked(),
+        )
         signed = dialog.exec()
         dialog.deleteLater()
         if signed:
@@ -320,6 +334,8 @@ class CertificatePage(Page):
 
     def retranslate(self) -> None:
         self.language.set_texts([("bilingual", self.tr("Bilingual"))])
+        self.budget_annex.setText(self.tr("Uncertainty budgets"))
+        self.budget_annex.setToolTip(self.tr("With the uncertainty budgets as annex pages"))
         self._smaller.set_hint(self.tr("Smaller"))
         self._larger.set_hint(self.tr("Larger"))
         self._signing_card.set_title(self.tr("Signatures"))

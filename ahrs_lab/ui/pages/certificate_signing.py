@@ -96,10 +96,13 @@ class SignDialog(Question):
         actor: SignedIn,
         certificate_language: CertificateLanguage,
         parent: QWidget | None = None,
+        *,
+        budget_annex: bool = False,
     ) -> None:
         super().__init__(parent)
         self._desk = desk
         self._call = (number, role, actor, certificate_language)
+        self._budget_annex = budget_annex
         self.file: Path | None = None
         self.password = TextField(secret=True)
         self.password.set_name(
@@ -127,7 +130,9 @@ class SignDialog(Question):
         number, role, actor, chosen = self._call
         self._desk.run(
             self,
-            lambda: self._desk.laboratory.sign(number, role, actor, password, chosen),
+            lambda: self._desk.laboratory.sign(
+                number, role, actor, password, chosen, budget_annex=self._budget_annex
+            ),
             self._signed,
             self._refused,
         )

@@ -44,6 +44,7 @@ class FakeLaboratory:
         self.records = Records(home / "records.sqlite")
         self.settings = Settings(home / "settings.toml")
         self.preview: Path | None = None
+        self.signed_with_annex = False
 
     def close(self) -> None:
         self.records.close()
@@ -122,16 +123,18 @@ class FakeLaboratory:
         rng = np.random.default_rng(3)
         return Samples({"t_s": time, **{f"gyro_{axis}": rng.normal(0.0, 0.05, time.size) for axis in "xyz"}})
 
-    def draft_certificate(self, number: str, language: str = "bilingual") -> Path:
+    def draft_certificate(
+        self, number: str, language: str = "bilingual", *, budget_annex: bool = False
+    ) -> Path:
         from reportlab.pdfgen.canvas import Canvas
 
         if self.preview is not None:
             return self.preview
-        target = self.home / f"{number}-{language}.pdf"
+        target = self.home / f"{number}-{language}{'-annex' if budget_annex else ''}.pdf"
         if target.exists():
             return target
         canvas = Canvas(str(target))
-        for page in range(1, 3):
+        for page in range(1, 4 if budget_annex else 3):
             canvas.drawString(100, 700, f"{number} {language} page {page} of 2")
             canvas.showPage()
         canvas.save()
@@ -144,11 +147,19 @@ class FakeLaboratory:
         return self.draft_certificate(number) if self.signatures(number) else None
 
     def sign(
-        self, number: str, role: SigningRole, actor: SignedIn, password: str, language: str = "bilingual"
+        self,
+        number: str,
+        role: SigningRole,
+        actor: SignedIn,
+        password: str,
+        language: str = "bilingual",
+        *,
+        budget_annex: bool = False,
     ) -> Path:
         self.records.jobs.may_sign(number, role, actor)
         self.records.people.sign_in(actor.person.name, password)
-        file = self.draft_certificate(number, language)
+        self.signed_with_annex = budget_annex
+        file = self.draft_certificate(number, language, budget_annex=budget_annex)
         digest = hashlib.sha256(file.read_bytes()).hexdigest()
         self.records.jobs.add_signature(number, role, actor, str(file), digest)
         return file

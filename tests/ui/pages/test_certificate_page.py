@@ -38,6 +38,31 @@ def test_the_preview_shows_its_pages_in_each_language(screens: Screens, qtbot: Q
     assert screens.certificate.view.count() == 2
 
 
+def test_the_budgets_are_annexed_before_the_first_signature_and_never_after(
+    screens: Screens, qtbot: QtBot, actors: dict[str, SignedIn]
+) -> None:
+    open_certificate(screens, qtbot, "measured")
+    page = screens.certificate
+    assert page.view.count() == 2
+    page.budget_annex.click()
+    screens.settle(qtbot)
+    assert page.view.count() == 3
+
+    def answer() -> None:
+        dialog = QApplication.activeModalWidget()
+        assert isinstance(dialog, SignDialog)
+        dialog.password.set_text(PASSWORD)
+        dialog.action.click()
+
+    screens.desk.sign_in(actors["operator"])
+    QTimer.singleShot(50, answer)
+    page.panels["operator"].sign.click()
+    screens.settle(qtbot)
+    assert screens.laboratory.signed_with_annex
+    assert not page.budget_annex.isVisible()
+    page.budget_annex.setChecked(False)
+
+
 def test_three_people_sign_one_after_the_other(
     screens: Screens, qtbot: QtBot, actors: dict[str, SignedIn]
 ) -> None:

@@ -53,7 +53,7 @@ class WhatIfStrip(QFrame):
 
     def text(self) -> str:
         """What is said, "" where nothing is."""
-        return self._text.text() if self.isVisibleTo(self.parentWidget()) else ""
+        return "" if self.isHidden() else self._text.text()
 
     def _show(self, kind: str, text: str) -> None:
         self._kind = kind

@@ -81,10 +81,12 @@ class BudgetView(Translated):
         ``reported``: the same with its U raised to the laboratory's capability.
         """
         self._quantity, self._unit, self._reported = quantity, unit, reported
-        self._model.follow(quantity)
+        another = self._model.follow(quantity)
         self.check.show_quantity(quantity, unit)
         self.strip.clear()
         self._show()
+        if another:
+            self.table.scrollToTop()
 
     def change(self, key: str, text: str) -> None:
         """What if u(x) of this row were ``text``; empty restores it."""

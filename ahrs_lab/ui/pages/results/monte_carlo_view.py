@@ -14,7 +14,7 @@ from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.results.histogram_data import HistogramData, IntervalKey, histogram_data
 from ahrs_lab.ui.pages.results.quantities import Quantity, Unit
 from ahrs_lab.ui.pages.widgets.icon_line import IconLine
-from ahrs_lab.ui.theme import AXIS_COLOURS, STEP, tokens
+from ahrs_lab.ui.theme import STEP, tokens
 from ahrs_lab.ui.widgets import ElidedLabel, Label
 from ahrs_lab.ui.widgets.labels import LineSwatch
 
@@ -22,10 +22,11 @@ if TYPE_CHECKING:
     from ahrs_lab.ui.pages.widgets.plot import Plot
 
 _LINES: dict[IntervalKey, tuple[str, Qt.PenStyle]] = {
-    "gum": (AXIS_COLOURS["x"], Qt.PenStyle.SolidLine),
-    "symmetric": (AXIS_COLOURS["z"], Qt.PenStyle.DashLine),
-    "shortest": (AXIS_COLOURS["y"], Qt.PenStyle.DotLine),
+    "gum": ("#CC79A7", Qt.PenStyle.SolidLine),
+    "symmetric": ("#56B4E9", Qt.PenStyle.DashLine),
+    "shortest": ("#E69F00", Qt.PenStyle.DotLine),
 }
+"""Colours that the colour-blind tell apart, and none of the axes'."""
 _FIRST, _STEP = 1.1, 0.14
 """Heights of the intervals above the highest bar, in its height."""
 

@@ -20,11 +20,13 @@ class WhatIfModel:
         self._changes: dict[int, Change] = {}
         self._found: Uncertainty | None = None
 
-    def follow(self, quantity: Quantity) -> None:
-        """Of this quantity from now on."""
-        if quantity != self._quantity:
+    def follow(self, quantity: Quantity) -> bool:
+        """Of this quantity from now on; whether it is another one."""
+        another = quantity != self._quantity
+        if another:
             self._quantity = quantity
             self.reset()
+        return another
 
     @property
     def changes(self) -> Mapping[int, Change]:

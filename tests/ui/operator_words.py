@@ -174,7 +174,9 @@ ZH = Words(
     nothing_to_stop="没有正在进行的运行，无需停止。",
     known=frozenset(
         re.findall(
-            r"\S+", "JJF AHRS GUM Esc pdf ppm rad English DEMO zero_offset.duration_s Lyx Lzx Lxy Lzy Lxz Lyz"
+            r"\S+",
+            "JJF JCGM AHRS GUM CSV Esc pdf ppm rad English DEMO zero_offset.duration_s "
+            "Lyx Lzx Lxy Lzy Lxz Lyz",
         )
     ),
 )

@@ -336,7 +336,8 @@ def _table_angle_deg(take: Take, off_deg: float, bench: BenchErrors) -> Array | 
     """Shape (n + 1,): the table's angle at the edges of the samples, None at rest."""
     segment, edges = take.segment, np.arange(take.samples + 1) * INTERVAL_S
     if segment.role == "rate":
-        return edges * segment.rate_dps * (1.0 + float(bench.rate_relative[rate_band(segment.rate_dps)]))
+        relative = float(bench.rate_relative[rate_band(segment.rate_dps)])
+        return np.asarray(edges * (segment.rate_dps * (1.0 + relative)))
     if segment.role != "turns":
         return None
     rate, total = abs(segment.rate_dps), 360.0 * abs(segment.turns or 0)
@@ -348,7 +349,7 @@ def _table_angle_deg(take: Take, off_deg: float, bench: BenchErrors) -> Array | 
     steady = np.clip(since - ramp_s, 0.0, flat_s)
     travelled = rate * (up**2 / (2.0 * ramp_s) + steady + down - down**2 / (2.0 * ramp_s))
     # the stop is missed by what the turns are too long or too short
-    return math.copysign(1.0, segment.rate_dps) * travelled * (1.0 + off_deg / total)
+    return np.asarray(math.copysign(1.0, segment.rate_dps) * travelled * (1.0 + off_deg / total))
 
 
 def _vector(values: Array) -> Vector:

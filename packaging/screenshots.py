@@ -91,11 +91,7 @@ class Photographer:
         go("results")
         self._settle(1.0)
         self.take("results")
-        self._diagnosis()
-        results = screen.window.pages["results"]
-        assert isinstance(results, ResultsPage)
-        results.tabs.setCurrentIndex(2)
-        self.take("results-budget")
+        self._result_tabs()
         go("certificate")
         self.until(lambda: not desk.background.busy)
         self.take("certificate")
@@ -103,9 +99,11 @@ class Photographer:
             go(page)
             self.take(page)
 
-    def _diagnosis(self) -> None:
+    def _result_tabs(self) -> None:
         results = self._screen.window.findChild(ResultsPage)
         assert results is not None
+        results.tabs.setCurrentIndex(2)
+        self.take("results-budget")
         results.tabs.setCurrentIndex(results.tabs.count() - 2)
         for key in ("K.x", "B.x"):
             results.choose(key)

@@ -388,7 +388,7 @@
     </message>
     <message>
         <source>reported: U = {expanded} (CMC)</source>
-        <translation type="unfinished">报告值：U = {expanded}（CMC）</translation>
+        <translation>报告值：U = {expanded}（CMC）</translation>
     </message>
     <message>
         <source>What if …</source>

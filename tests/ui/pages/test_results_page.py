@@ -136,7 +136,7 @@ def test_what_if_says_what_u_would_be_and_touches_nothing(screens: Screens, qtbo
     screens.results.choose("B.x")
     screens.results.tabs.setCurrentIndex(2)
     budget = screens.results.budget
-    before, total = screens.results._result, budget._sum.text()
+    before, total = screens.results._judged, budget._sum.text()
     rows = [budget.table.texts(row) for row in range(7)]
     assert budget.strip.text() == ""
     typed(screens, qtbot, budget.table.keys()[0], "0")
@@ -151,7 +151,9 @@ def test_what_if_says_what_u_would_be_and_touches_nothing(screens: Screens, qtbo
     budget.strip.reset_button.click()
     screens.settle(qtbot)
     assert [budget.table.texts(row) for row in range(7)] == rows
-    assert screens.results._result == before == screens.laboratory.result(screens.number("measured"))
+    assert screens.results._judged == before
+    assert before is not None
+    assert before.computed == screens.laboratory.result(screens.number("measured"))
 
 
 def test_what_is_no_uncertainty_is_said_and_escape_restores(screens: Screens, qtbot: QtBot) -> None:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QCoreApplication
+from PySide6.QtCore import QCoreApplication, Qt
 
 from ahrs_lab.metrology.diagnosis.model import AllanDiagnosis, Harmonic, Residuals, ScaleFactorDiagnosis
 from ahrs_lab.recording.orientation import Axis
@@ -70,7 +70,9 @@ def draw_harmonic(plot: Plot, found: Harmonic, axis: Axis) -> None:
         QCoreApplication.translate("Plots", "Mean output, °/h"),
     )
     curve = np.asarray(found.curve_azimuths_deg)
-    plot.add_curve(curve, _DPH * np.asarray(found.expected_curve_dps), tokens().muted, dashed=True)
+    plot.add_curve(
+        curve, _DPH * np.asarray(found.expected_curve_dps), tokens().muted, style=Qt.PenStyle.DashLine
+    )
     plot.add_curve(curve, _DPH * np.asarray(found.fitted_dps), AXIS_COLOURS[axis])
     x, y = np.asarray(found.azimuths_deg), _DPH * np.asarray(found.rates_dps)
     errors = np.full_like(y, _BAR * _DPH * found.standard_error_dps)

@@ -276,9 +276,9 @@ class ResultsPage(Page):
         )
 
     def _save_budgets(self) -> None:
-        result = self._result
-        if result is None:
+        if self._judged is None:
             return
+        result = self._judged.computed
         name = str(Path.home() / f"{self._desk.number}-budget.csv")
         path, _ = QFileDialog.getSaveFileName(
             self, self.tr("Save as"), name, self.tr("Tables for a spreadsheet (*.csv)")

@@ -11,7 +11,6 @@ from ahrs_lab.metrology.uncertainty.noise import (
     NoiseModel,
     _pooled_allan,
     batch_means,
-    drift_structure,
     drift_variance,
     fit_noise,
     neighbour_variance,
@@ -135,9 +134,10 @@ def test_short_recordings_say_nothing_of_drift() -> None:
 
 def test_neighbouring_means_differ_by_the_allan_variance() -> None:
     """D_1 = 2σ²(T): flicker (2 ln 2/π)B², random walk K²T/3 (IEEE 952)."""
-    one = np.array([1.0])
-    assert 0.5 * drift_structure(one, 100.0, 1.0, 0.0)[0] == pytest.approx(0.664282**2, rel=1e-5)
-    assert 0.5 * drift_structure(one, 100.0, 0.0, 0.2)[0] == pytest.approx(0.2**2 * 100.0 / 3.0)
+    next_to_each_other = np.array([0.5, -0.5]) * math.sqrt(2.0), np.array([0.0, 100.0]), np.full(2, 100.0)
+    flicker, walk = NoiseModel(flicker=1.0), NoiseModel(walk=0.2)
+    assert drift_variance(*next_to_each_other, flicker)[0] == pytest.approx(0.664282**2, rel=1e-5)
+    assert drift_variance(*next_to_each_other, walk)[0] == pytest.approx(0.2**2 * 100.0 / 3.0)
     model = NoiseModel(white=3.0, flicker=1.0, walk=0.2)
     assert model.allan_deviation(100.0) ** 2 == pytest.approx(
         9.0 / 100.0 + 0.664282**2 + 0.04 * 100.0 / 3.0, rel=1e-5
@@ -154,6 +154,28 @@ def test_drift_of_a_weighted_sum_is_that_of_the_covariance() -> None:
     found, dof = drift_variance(weights, np.arange(4.0), np.ones(4), NoiseModel(walk=walk))
     assert dof == math.inf
     assert found == pytest.approx(float(weights @ covariance @ weights), rel=5e-3)
+
+
+def test_means_of_different_length_drift_by_what_they_are_made_of() -> None:
+    """A long mean is the mean of its parts; for flicker and for a walk, with pauses between."""
+    weights = np.array([1.0, -0.4, -0.6])
+    starts, durations = np.array([0.0, 70.0, 200.0]), np.array([60.0, 20.0, 40.0])
+    parts = [np.arange(start, start + length, 20.0) for start, length in zip(starts, durations, strict=True)]
+    in_parts = np.concatenate([np.full(len(p), w / len(p)) for p, w in zip(parts, weights, strict=True)])
+    for noise in (NoiseModel(flicker=1.3), NoiseModel(walk=0.02)):
+        whole, _ = drift_variance(weights, starts, durations, noise)
+        finely, _ = drift_variance(in_parts, np.concatenate(parts), np.full(len(in_parts), 20.0), noise)
+        assert whole == pytest.approx(finely, rel=1e-9)
+
+
+def test_white_noise_is_not_lowered_where_flicker_is_cut_off_at_zero() -> None:
+    """Little flicker beside much noise of the angle: the three are told apart with difficulty."""
+    rng = np.random.default_rng(11)
+    squares = []
+    for _ in range(150):
+        dwells = [rng.normal(0.0, 1.0, 600) + np.diff(rng.normal(0.0, 4.0, 601)) for _ in range(6)]
+        squares.append(fit_noise(dwells, 1.0).white ** 2)
+    assert float(np.mean(squares)) == pytest.approx(1.0, abs=4.0 * float(np.std(squares)) / math.sqrt(150))
 
 
 def test_pairs_of_rates_suffer_less_from_drift_than_a_sweep() -> None:

@@ -222,44 +222,43 @@ def _select_terms(columns: Array, target: Array) -> _Fit:
     used, part, solution, scale = best
     terms, covariance = np.zeros(4), np.zeros((4, 4))
     terms[used] = solution / scale
+    if terms[2] == 0.0:
+        # N² as it is where flicker may be below zero: cut off at zero, it would pull N down in the mean
+        free = np.linalg.lstsq(part, target, rcond=None)[0] / scale
+        terms[1] = max(terms[1], float(free[used.index(1)]))
     covariance[np.ix_(used, used)] = np.linalg.pinv(part.T @ part) / np.outer(scale, scale)
     return _Fit(terms, covariance)
 
 
-def drift_structure(lags: Array, duration_s: float, flicker: float, walk: float) -> Array:
-    """D_k without its white term: E(ȳ_i − ȳ_j)² of means over ``duration_s`` that start ``lags``·duration
-    apart.
+def drift_covariances(starts_s: Array, durations_s: Array) -> tuple[Array, Array]:
+    """Generalised covariances, shape (n, n) each, of means over any intervals of shape (n,), for flicker of
+    B = 1 and random walk of K_r = 1: right in sums Σcᵢȳᵢ with Σc = 0, where all constants cancel.
 
-    Any shape; lags from 1, nearer ones count as 1; lag 0 gives 0. D_k = (B²/π)[(k+1)²ln(k+1) + (k−1)²ln|k−1|
-    − 2k²ln k] + K_r²T(k − ⅓).
+    The double integrals of −ln|t|/π and −|t|/2 over both intervals. For equal ones that follow each other
+    C_ii + C_jj − 2C_ij is D_k = (B²/π)[(k+1)²ln(k+1) + (k−1)²ln|k−1| − 2k²ln k] + K_r²T(k − ⅓).
     """
-    lag = np.maximum(lags, 1.0)
-    below = lag - 1.0
-    near = np.where(below > 0.0, below**2 * np.log(np.where(below > 0.0, below, 1.0)), 0.0)
-    bracket = (lag + 1.0) ** 2 * np.log(lag + 1.0) + near - 2.0 * lag**2 * np.log(lag)
-    structure = flicker**2 / math.pi * bracket + walk**2 * duration_s * (lag - 1.0 / 3.0)
-    return np.where(lags > 0.0, structure, 0.0)
+    begin, end = starts_s, starts_s + durations_s
+    products = np.outer(durations_s, durations_s)
+    flicker, walk = np.zeros_like(products), np.zeros_like(products)
+    for sign, one, other in ((1.0, end, begin), (1.0, begin, end), (-1.0, end, end), (-1.0, begin, begin)):
+        distance = np.abs(np.subtract.outer(one, other))
+        flicker += sign * distance**2 * np.log(np.where(distance > 0.0, distance, 1.0))
+        walk += sign * distance**3
+    return -flicker / (2.0 * math.pi * products), -walk / (12.0 * products)
 
 
 def drift_variance(
     weights: Array, starts_s: Array, durations_s: Array, noise: NoiseModel
 ) -> tuple[float, float]:
-    """Variance of Σcᵢȳᵢ (Σc = 0) by flicker and random walk: −½ ΣΣ cᵢcⱼ D_|i−j|; arrays of shape (n,). And
-    its degrees of freedom, from how well B² and K_r² are known.
+    """Variance of Σcᵢȳᵢ (Σc = 0) by flicker and random walk, arrays of shape (n,), and its degrees of
+    freedom, from how well B² and K_r² are known.
 
-    Several sums at once: ``weights`` of shape (m, n); the result is for their variances added up. The means
-    are taken as equally long (their mean duration).
+    Several sums at once: ``weights`` of shape (m, n); the result is for their variances added up.
     """
     if noise.flicker == 0.0 and noise.walk == 0.0:
         return 0.0, math.inf
-    duration = float(durations_s.mean())
-    lags = np.abs(starts_s[:, None] - starts_s[None, :]) / duration
-    lags = np.where(np.eye(len(starts_s), dtype=bool), 0.0, np.maximum(lags, 1.0))
     products = np.atleast_2d(weights).T @ np.atleast_2d(weights)
-    units = [
-        max(0.0, -0.5 * float(np.vdot(products, drift_structure(lags, duration, *unit))))
-        for unit in ((1.0, 0.0), (0.0, 1.0))
-    ]
+    units = [max(0.0, float(np.vdot(products, unit))) for unit in drift_covariances(starts_s, durations_s)]
     variance = units[0] * noise.flicker**2 + units[1] * noise.walk**2
     if noise.covariance is None or variance == 0.0:
         return variance, math.inf

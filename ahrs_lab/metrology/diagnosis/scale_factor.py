@@ -27,7 +27,7 @@ from ahrs_lab.metrology.diagnosis.statistics import (
 from ahrs_lab.metrology.diagnosis.words import figures
 from ahrs_lab.metrology.scale_factor import ScaleFactorFit
 from ahrs_lab.metrology.uncertainty.gum_scale_factor import ScaleFactorEvidence
-from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_structure, drift_variance
+from ahrs_lab.metrology.uncertainty.noise import drift_covariances, drift_variance
 
 Array = NDArray[np.float64]
 
@@ -94,10 +94,9 @@ def _lack_of_fit(
     if float(np.sqrt(np.mean(errors**2))) <= _LEAST_RELATIVE * full_scale:
         return None
     white, _ = residual_expectation(design, np.diag(errors**2))
-    structure = _structure(evidence.starts_s, evidence.durations_s, evidence.noise)
     contrasts = np.linalg.qr(design, mode="complete")[0][:, design.shape[1] :].T
     drift, dof_drift = drift_variance(contrasts, evidence.starts_s, evidence.durations_s, evidence.noise)
-    expected, dof_fit = residual_expectation(design, np.diag(errors**2) - 0.5 * structure)
+    expected, dof_fit = residual_expectation(design, np.diag(errors**2) + _drift_covariance(evidence))
     leverage = 1.0 - (np.linalg.qr(design)[0] ** 2).sum(axis=1)
     dof_white = welch_satterthwaite(leverage * errors**2, evidence.dofs)
     dof_noise = welch_satterthwaite(np.array([white, drift]), np.array([dof_white, dof_drift]))
@@ -105,12 +104,10 @@ def _lack_of_fit(
     return LackOfFit(F, dof_fit, dof_noise, f_tail(F, dof_fit, dof_noise), scatter_share)
 
 
-def _structure(starts_s: Array, durations_s: Array, noise: NoiseModel) -> Array:
-    """D of the pairs of means by flicker and random walk, shape (n, n)."""
-    duration = float(durations_s.mean())
-    lags = np.abs(starts_s[:, None] - starts_s[None, :]) / duration
-    lags[~np.eye(len(lags), dtype=bool)] = np.maximum(lags[~np.eye(len(lags), dtype=bool)], 1.0)
-    return drift_structure(lags, duration, noise.flicker, noise.walk)
+def _drift_covariance(evidence: ScaleFactorEvidence) -> Array:
+    """Of the means by flicker and random walk, shape (M, M); right beside a fitted constant."""
+    flicker, walk = drift_covariances(evidence.starts_s, evidence.durations_s)
+    return evidence.noise.flicker**2 * flicker + evidence.noise.walk**2 * walk
 
 
 def _drift(evidence: ScaleFactorEvidence, statics: tuple[float, float], full_scale: float) -> Change | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -26,6 +27,7 @@ from ahrs_lab.metrology.diagnosis.zero_offset import (
     diagnose_harmonic,
     diagnose_positions,
     harmonic_findings,
+    position_findings,
 )
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
 from ahrs_lab.metrology.uncertainty.gum_scale_factor import ScaleFactorEvidence
@@ -198,6 +200,18 @@ def test_positions_alarm_once_in_a_hundred_and_name_the_one_that_was_moved() -> 
     rng = np.random.default_rng(8)
     assert is_one_percent(sum(bool(diagnose_positions(positions(rng)).outliers) for _ in range(TRIALS)))
     assert diagnose_positions(positions(rng, 2e-4)).outliers == (4,)
+
+
+def test_positions_that_scatter_beyond_their_noise_are_said_so_once_in_a_hundred_by_chance() -> None:
+    rng = np.random.default_rng(722)
+
+    def state(turn_on_dps: float) -> str:
+        found = positions(rng)
+        moved = replace(found, rates_dps=found.rates_dps + rng.normal(0.0, turn_on_dps, 12))
+        return position_findings(diagnose_positions(moved))[-1].state
+
+    assert is_one_percent(sum(state(0.0) == "look" for _ in range(TRIALS)))
+    assert state(5e-5) == "look"
 
 
 AZIMUTHS = np.arange(0.0, 360.0, 30.0)

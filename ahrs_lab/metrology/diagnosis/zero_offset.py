@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import chdtrc
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.diagnosis.model import Change, DiagnosisFinding, Harmonic, Residuals, state_of
@@ -121,9 +122,34 @@ def _change(value: float, noise: float, bench: float, dof: float) -> Change:
 
 
 def position_findings(found: Residuals) -> list[DiagnosisFinding]:
-    """Which recordings stand apart."""
-    if found.dof < 1:
+    """Which recordings stand apart, and whether all together scatter more than their noise."""
+    return [*_outlier_findings(found), *_scatter_finding(found)] if found.dof > 0 else []
+
+
+def _scatter_finding(found: Residuals) -> list[DiagnosisFinding]:
+    """By χ²; never a warning, because what the offset does from dwell to dwell belongs to B (7.2)."""
+    noise = math.sqrt(math.fsum(e * e for e in found.standard_errors) / len(found.standard_errors))
+    scatter = math.sqrt(math.fsum(v * v for v in found.residuals) / found.dof)
+    if noise <= 1e-9 * EARTH_RATE_DPS:
         return []
+    p = float(chdtrc(found.dof, found.dof * (scatter / noise) ** 2))
+    numbers = {"scatter": figures(_DPH * scatter), "noise": figures(_DPH * noise)}
+    if state_of(p) == "fine":
+        what = Message(
+            "The recordings scatter by {scatter} °/h, no more than the noise of one, {noise} °/h, explains.",
+            **numbers,
+        )
+        return [DiagnosisFinding("fine", what, p)]
+    what = Message(
+        "The recordings scatter by {scatter} °/h, the noise of one is {noise} °/h: the zero offset changed "
+        "from one to the next (drift, turn-on, temperature). U says how well its mean over these recordings "
+        "is known; another day B may be off by as much as they scatter.",
+        **numbers,
+    )
+    return [DiagnosisFinding("look", what, p)]
+
+
+def _outlier_findings(found: Residuals) -> list[DiagnosisFinding]:
     if not found.outliers:
         what = Message(
             "None of the {count} recordings stands apart from the others, the Earth's rate taken out.",

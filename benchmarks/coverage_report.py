@@ -95,13 +95,16 @@ def _table(found: _Found, count: int, seed: int) -> str:
 
 
 def _row(configuration: Configuration, tally: Tally, group: str) -> str:
-    places, count = members(group), len(tally.errors)
+    count = len(tally.errors)
+    # without noise, what only errors of second order reach has no U that could hold them
+    places = [place for place in members(group) if tally.expanded[:, place].any()]
     each = tally.covered[places]
     # the axes share the table's errors: together they count as one sample of ``count``
     mean = round(float(each.mean()))
     low, high = bounds(mean, count)
     to_limit, to_stated = ratios(tally, group)
     source, share = dominant(tally, group)
+    source = source.replace("|", "\\|")
     symbol = {"F0": "F₀"}.get(group, group)
     limit = (
         ""
@@ -119,7 +122,7 @@ def _row(configuration: Configuration, tally: Tally, group: str) -> str:
 
 
 _ROW, _LEFT, _TOP, _WIDTH = 15.0, 250.0, 34.0, 460.0
-_FROM, _TO = 93.0, 98.0
+_FROM, _TO = 92.0, 98.0
 
 
 def _picture(found: _Found) -> str:
@@ -133,7 +136,8 @@ def _picture(found: _Found) -> str:
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{_LEFT + _WIDTH + 20:.0f}" height="{height:.0f}" '
         'font-family="sans-serif" font-size="10" fill="#333">',
-        f'<rect width="100%" height="100%" fill="#fff"/><rect x="{_at(LOW):.1f}" y="{_TOP - 8:.1f}" '
+        f'<rect width="{_LEFT + _WIDTH + 20:.0f}" height="{height:.0f}" fill="#fff"/>',
+        f'<rect x="{_at(LOW):.1f}" y="{_TOP - 8:.1f}" '
         f'width="{_at(HIGH) - _at(LOW):.1f}" height="{_ROW * len(rows) + 8:.1f}" fill="#e6f0e6"/>',
         f'<text x="{_LEFT}" y="14">intervals that hold the truth, %, with binomial 95 % bounds; shaded: '
         f"{LOW:g} to {HIGH:g}</text>",
@@ -157,6 +161,8 @@ def _marks(y: float, name: str, group: str, tally: Tally) -> list[str]:
         f'<text x="{_LEFT - 22:.0f}" y="{y + 3.5:.1f}">{group}</text>'
     ]
     for number, place in enumerate(places):
+        if not tally.expanded[:, place].any():
+            continue
         covered = int(tally.covered[place])
         low, high = bounds(covered, count)
         line = y + (number - (len(places) - 1) / 2.0) * (_ROW - 4.0) / len(places)

@@ -56,7 +56,8 @@ def commands() -> dict[str, set[str]]:
 def test_pages_are_short_and_listed() -> None:
     index = text_of(ROOT / "docs/README.md")
     for path in (ROOT / "docs").glob("*.md"):
-        assert len(text_of(path).splitlines()) <= LONGEST_PAGE, path.name
+        written = re.sub(r"<!-- table: begin -->.*<!-- table: end -->", "", text_of(path), flags=re.DOTALL)
+        assert len(written.splitlines()) <= LONGEST_PAGE, path.name
         if path.name != "README.md":
             assert f"]({path.name})" in index, path.name
 

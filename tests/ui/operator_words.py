@@ -175,7 +175,7 @@ ZH = Words(
     known=frozenset(
         re.findall(
             r"\S+",
-            "JJF JCGM AHRS GUM CSV Esc pdf ppm rad English DEMO zero_offset.duration_s "
+            "JJF JCGM ILAC AHRS GUM CSV Esc pdf ppm rad English DEMO zero_offset.duration_s "
             "Lyx Lzx Lxy Lzy Lxz Lyz",
         )
     ),

@@ -24,7 +24,7 @@ from ahrs_lab.metrology.result import (
 from ahrs_lab.metrology.uncertainty.full_model import MonteCarloSettings
 from ahrs_lab.metrology.uncertainty.monte_carlo import check_trials
 from ahrs_lab.procedures.reduction_diagnosis import diagnose
-from ahrs_lab.procedures.reduction_evidence import Evidence, RateSource
+from ahrs_lab.procedures.reduction_evidence import Evidence, RateSource, unknown_resolution
 from ahrs_lab.procedures.reduction_misalignment import reduce_misalignments
 from ahrs_lab.procedures.reduction_scale_factor import reduce_scale_factor
 from ahrs_lab.procedures.reduction_selection import select
@@ -96,6 +96,7 @@ def _reduce(
     warnings += said
     if not scale_factors and not zero_offsets and not misalignments:
         raise _nothing(warnings)
+    warnings += unknown_resolution(evidence, scale_factors, zero_offsets, misalignments)
     diagnosis, said = diagnose(evidence, scale_factors, zero_offsets, misalignments)
     warnings += said
     warnings += not_validated(scale_factors, zero_offsets, misalignments)

@@ -41,6 +41,7 @@ from ahrs_lab.metrology.uncertainty.noise import standard_error
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 from ahrs_lab.procedures.reduction_evidence import Evidence, axis_batches
 from ahrs_lab.procedures.reduction_output import degrees_factor
+from ahrs_lab.procedures.reduction_scale_factor import samples_of
 from ahrs_lab.procedures.reduction_selection import Take
 from ahrs_lab.recording.orientation import AXES, Axis
 
@@ -141,9 +142,9 @@ def _scale_factor(looked: _Looked, result: ScaleFactorResult) -> ScaleFactorDiag
             rest_dofs=(rest_errors[0][1], rest_errors[1][1]),
             rest_durations_s=(_mean_duration(rests[0]), _mean_duration(rests[1])),
             rest_starts_s=(_mean_start(rests[0]), _mean_start(rests[1])),
+            rest_samples=(samples_of(rests[0]), samples_of(rests[1])),
             samples=np.array([float(take.output.samples) for take in at_rates]),
-            resolution=evidence.resolution[axis].step,
-            dithered=evidence.resolution[axis].dithered,
+            resolution=evidence.resolution[axis],
             noise=evidence.noise[axis],
             latitude_deg=evidence.site.latitude_deg,
         ),

@@ -4,18 +4,29 @@ the bench."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import BenchCapability
-from ahrs_lab.metrology.result import Method, Origin, Uncertainty
+from ahrs_lab.metrology.result import (
+    Method,
+    MisalignmentResult,
+    Origin,
+    ResultWarning,
+    ScaleFactorResult,
+    Uncertainty,
+    ZeroOffsetResult,
+)
 from ahrs_lab.metrology.uncertainty.annex_a import annex_a_uncertainty
 from ahrs_lab.metrology.uncertainty.full_model import MonteCarloSettings
-from ahrs_lab.metrology.uncertainty.noise import NoiseModel, batch_means, fit_noise, resolution_step
+from ahrs_lab.metrology.uncertainty.noise import NoiseModel, batch_means, fit_noise
+from ahrs_lab.metrology.uncertainty.resolution import Resolution, find_resolution
 from ahrs_lab.procedures.reduction_output import DeviceOutput
 from ahrs_lab.procedures.reduction_selection import Selection
 from ahrs_lab.recording.orientation import AXES, Axis
@@ -27,14 +38,6 @@ RateSource = Literal["demanded", "table"]
 
 ANNEX_A_BITS = 12.0
 """The standard's example, where the data do not show a resolution."""
-
-
-@dataclass(frozen=True)
-class Resolution:
-    """Step of the output, in its unit, and whether the noise spreads readings over several steps."""
-
-    step: float
-    dithered: bool
 
 
 @dataclass(frozen=True)
@@ -62,14 +65,29 @@ class Evidence:
 
     @cached_property
     def resolution(self) -> dict[Axis, Resolution]:
-        """Of each axis, at rest where possible; the output's unit."""
-        takes = sorted(self.selection.takes, key=lambda take: not take.at_rest)
-        found: dict[Axis, Resolution] = {}
-        for axis in AXES:
-            column = takes[0].output.rates[axis][:4096]
-            step = resolution_step(column)
-            found[axis] = Resolution(step, float(np.std(column)) >= 0.5 * step > 0.0)
-        return found
+        """Of each axis, from the recordings at rest and at the rates, where there are any; the output's
+        unit. Where an axis shows no step, or all axes are made of the three angles of attitude, the coarsest
+        step of the three holds."""
+        takes = self.selection.takes
+        rest = [take for take in takes if take.at_rest]
+        moving = [take for take in takes if take.segment.role == "rate"]
+        if not rest and not moving:  # a rate that changes on the way is no step of the output
+            moving = list(takes)
+        source = takes[0].output.source
+        found = {
+            axis: find_resolution(
+                [take.output.readings[axis] for take in rest],
+                [take.output.readings[axis] for take in moving],
+                of_angle=source != "rate",
+            )
+            for axis in AXES
+        }
+        coarsest = max(found.values(), key=lambda one: one.step)
+        if source == "attitude":
+            return dict.fromkeys(AXES, coarsest)
+        return {
+            axis: one if one.step > 0.0 else replace(one, step=coarsest.step) for axis, one in found.items()
+        }
 
     def annex_a(
         self, value: float, unit: str, rate_dps: float, bits: float | None, repeatability: list[float]
@@ -96,7 +114,9 @@ class Evidence:
 
     def acquisition_bits(self, axis: Axis) -> float | None:
         """Effective bits by the data: the largest output at the table's rates, both senses, over the step."""
-        step = self.resolution[axis].step
+        resolution = self.resolution[axis]
+        # of an angle: what its step makes of one rate reading
+        step = resolution.step / (self.selection.takes[0].output.step_s if resolution.of_angle else 1.0)
         largest = max(
             (
                 abs(take.output.mean(axis))
@@ -111,3 +131,24 @@ class Evidence:
 def axis_batches(output: DeviceOutput, axis: Axis) -> tuple[Array, float]:
     """Means over about a second of one axis's rate, and the length of a batch, s."""
     return batch_means(output.rates[axis], output.step_s)
+
+
+def unknown_resolution(
+    evidence: Evidence,
+    scale_factors: Mapping[Axis, ScaleFactorResult],
+    zero_offsets: Mapping[Axis, ZeroOffsetResult],
+    misalignments: Mapping[str, MisalignmentResult],
+) -> list[ResultWarning]:
+    """A warning for each output that has results, where no output shows a step in any recording."""
+    used = {*scale_factors, *zero_offsets, *(one.output_axis for one in misalignments.values())}
+    return [
+        ResultWarning(
+            Message(
+                "output {axis} shows one and the same value throughout each recording: its resolution is "
+                "not known, and no uncertainty contains it.",
+                axis=axis.upper(),
+            )
+        )
+        for axis in AXES
+        if axis in used and evidence.resolution[axis].step == 0.0
+    ]

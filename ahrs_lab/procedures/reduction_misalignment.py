@@ -137,8 +137,7 @@ def _result(
         starts_s=(positive[0].start_s, negative[0].start_s),
         repeats=min(len(positive), len(negative)),
         samples=positive[0].output.samples,
-        resolution_dps=evidence.resolution[output].step * abs(factor),
-        dithered=evidence.resolution[output].dithered,
+        resolution=evidence.resolution[output].scaled(factor),
         noise=evidence.noise[output].scaled(factor),
         # what both recordings show alike: zero offset and Earth's rate
         rest_rate_dps=0.5 * (angle_positive + angle_negative) / duration,

@@ -31,8 +31,9 @@ _GAP = 1.5
 class DeviceOutput:
     """Rates about the case axes of one segment, each of shape (n,), in ``unit`` (for increments: deg/s).
 
-    ``intervals_s``, shape (n,), are the times the rows stand for; ``lost_s`` is the time before each row for
-    which there is none, or None where nothing is missing.
+    ``readings`` are what the device gives, whose steps are its resolution: the rates, or the angles in deg
+    that they were made of. ``intervals_s``, shape (n,), are the times the rows stand for;
+    ``lost_s`` is the time before each row for which there is none, or None where nothing is missing.
     """
 
     rates: Mapping[Axis, Array]
@@ -41,6 +42,7 @@ class DeviceOutput:
     step_s: float
     unit: str
     source: Source
+    readings: Mapping[Axis, Array]
 
     @property
     def samples(self) -> int:
@@ -87,12 +89,12 @@ def device_output(samples: Samples, device: DeviceDescription) -> DeviceOutput:
     if all(column is not None for column in gyro):
         rates = {axis: column for axis, column in zip(AXES, gyro, strict=True) if column is not None}
         intervals, lost = _intervals(t_s, step, first=step)
-        return DeviceOutput(rates, intervals, lost, step, device.rate_unit, "rate")
+        return DeviceOutput(rates, intervals, lost, step, device.rate_unit, "rate", rates)
     increments, source = _increments(samples)
     between = np.diff(t_s)
     rates = {axis: column / between for axis, column in zip(AXES, increments, strict=True)}
     # increments span a gap: nothing of the angle is lost with the samples
-    return DeviceOutput(rates, between, None, step, "deg/s", source)
+    return DeviceOutput(rates, between, None, step, "deg/s", source, _angles(samples, source))
 
 
 def _step(t_s: Array, nominal: float) -> float:
@@ -122,6 +124,14 @@ def _increments(samples: Samples) -> tuple[list[Array], Source]:
         "The device gives neither rates (gyro_x …) nor angles (angle_x …) nor attitude (heading_deg …): "
         "one of them has to be recorded."
     )
+
+
+def _angles(samples: Samples, source: Source) -> dict[Axis, Array]:
+    """The angles as the device gives them; each of attitude's three enters every axis, so all stand for
+    it."""
+    if source == "angle":
+        return {axis: samples[name] for axis, name in zip(AXES, ANGLE, strict=True)}
+    return {axis: samples[name] for axis, name in zip(AXES, ATTITUDE, strict=True)}
 
 
 def _unwrapped(angle_deg: Array) -> Array:

@@ -186,12 +186,17 @@ def _budget_input(
         rest_dofs=(before.dof, after.dof),
         rest_durations_s=(before.duration_s, after.duration_s),
         rest_starts_s=(before.start_s, after.start_s),
+        rest_samples=(samples_of(groups.before), samples_of(groups.after)),
         samples=np.array([float(take.output.samples) for take in groups.at_rates]),
-        resolution=evidence.resolution[axis].step,
-        dithered=evidence.resolution[axis].dithered,
+        resolution=evidence.resolution[axis],
         noise=evidence.noise[axis],
         latitude_deg=evidence.site.latitude_deg,
     )
+
+
+def samples_of(takes: Sequence[Take]) -> float:
+    """In all of them."""
+    return float(sum(take.output.samples for take in takes))
 
 
 def _mean(evidence: Evidence, takes: Sequence[Take], axis: Axis) -> _Mean:

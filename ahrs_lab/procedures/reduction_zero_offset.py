@@ -280,8 +280,7 @@ def _budget_input(
         samples=np.array(
             [float(sum(take.output.samples for take in position.takes)) for position in positions]
         ),
-        resolution_dps=evidence.resolution[axis].step * abs(factor),
-        dithered=evidence.resolution[axis].dithered,
+        resolution=evidence.resolution[axis].scaled(factor),
         noise=evidence.noise[axis].scaled(factor),
         latitude_deg=evidence.site.latitude_deg,
         scale_relative=scale_relative,

@@ -14,6 +14,7 @@ from ahrs_lab.metrology.uncertainty.gum_misalignment import MisalignmentEvidence
 from ahrs_lab.metrology.uncertainty.gum_scale_factor import ScaleFactorEvidence, scale_factor_uncertainty
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel
+from ahrs_lab.metrology.uncertainty.resolution import Resolution
 
 EARTH_DPS = math.degrees(7.292115e-5)
 LATITUDE = 40.0
@@ -37,8 +38,7 @@ def four_positions(directions: tuple[np.ndarray, ...] = (E, E, -E, -E)) -> ZeroO
         durations_s=np.full(4, 1800.0),
         repeats=np.ones(4),
         samples=np.full(4, 18000.0),
-        resolution_dps=0.0,
-        dithered=True,
+        resolution=Resolution(),
         noise=NoiseModel(white=2.5e-3, white_dof=100.0),
         latitude_deg=LATITUDE,
     )
@@ -55,9 +55,9 @@ def rates_evidence(noise: float = 1e-3) -> ScaleFactorEvidence:
         rest_dofs=(39.0, 39.0),
         rest_durations_s=(60.0, 60.0),
         rest_starts_s=(0.0, 300.0),
+        rest_samples=(600.0, 600.0),
         samples=np.full(count, 300.0),
-        resolution=0.0,
-        dithered=True,
+        resolution=Resolution(),
         noise=NoiseModel(),
         latitude_deg=LATITUDE,
     )
@@ -90,8 +90,7 @@ def turns() -> MisalignmentEvidence:
         starts_s=(0.0, 40.0),
         repeats=1,
         samples=360,
-        resolution_dps=0.0,
-        dithered=True,
+        resolution=Resolution(),
         noise=NoiseModel(white=2.5e-3, white_dof=100.0),
         rest_rate_dps=0.0,
     )

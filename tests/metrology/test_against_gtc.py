@@ -17,6 +17,7 @@ from ahrs_lab.metrology.uncertainty.budget import combine, type_a
 from ahrs_lab.metrology.uncertainty.gum_misalignment import misalignment_uncertainty
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import zero_offset_uncertainty
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel
+from ahrs_lab.metrology.uncertainty.resolution import Resolution
 from tests.metrology.evidence import (
     BENCH,
     KNOWN_TO_6_DOF,
@@ -112,12 +113,12 @@ MEANS = 1.01 * RATES + 0.02 + 1e-3 * np.sin(7.0 * RATES)
 
 def quantities() -> dict[str, Uncertainty]:
     """A budget of each of the house's quantities with every row in it."""
-    evidence = replace(rates_evidence(), noise=NOISE, resolution=1e-3)
+    evidence = replace(rates_evidence(), noise=NOISE, resolution=Resolution(1e-3))
     fit = fit_scale_factor(RATES, MEANS, 0.001, 0.002)
     K, F0 = budgets(fit, evidence, time_scaled=True)
     K_measured, F0_measured = budgets(fit, evidence, "table")
     positions = replace(four_positions(), noise=NOISE, scale_relative=1e-3, time_scaled=True)
-    in_turns = replace(turns(), noise=NOISE, scale_relative=1e-3, resolution_dps=1e-3)
+    in_turns = replace(turns(), noise=NOISE, scale_relative=1e-3, resolution=Resolution(1e-3))
     return {
         "K": K,
         "F0": F0,

@@ -32,6 +32,7 @@ from ahrs_lab.metrology.diagnosis.zero_offset import (
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
 from ahrs_lab.metrology.uncertainty.gum_scale_factor import ScaleFactorEvidence
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel, standard_error
+from ahrs_lab.metrology.uncertainty.resolution import Resolution
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
@@ -122,9 +123,9 @@ def scale_factor(
         rest_dofs=(rest_errors[0][1], rest_errors[1][1]),
         rest_durations_s=(60.0, 60.0),
         rest_starts_s=(0.0, 500.0),
+        rest_samples=(6000.0, 6000.0),
         samples=np.full(10, 2000.0),
-        resolution=1e-5,
-        dithered=True,
+        resolution=Resolution(1e-5),
         noise=NoiseModel(white=sigma),
         latitude_deg=40.0,
     )

@@ -30,6 +30,7 @@ from ahrs_lab.metrology.uncertainty.gum_misalignment import misalignment_uncerta
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence, zero_offset_uncertainty
 from ahrs_lab.metrology.uncertainty.monte_carlo import propagate
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel
+from ahrs_lab.metrology.uncertainty.resolution import Resolution
 from ahrs_lab.metrology.zero_offset import zero_offset
 from tests.metrology.evidence import (
     BENCH,
@@ -103,7 +104,9 @@ POSITIONS = {
 
 @pytest.mark.parametrize("positions", POSITIONS)
 def test_the_slopes_of_B_are_the_sensitivities_of_its_budget(positions: str) -> None:
-    evidence = replace(POSITIONS[positions], scale_relative=1e-3, time_scaled=True, resolution_dps=1e-4)
+    evidence = replace(
+        POSITIONS[positions], scale_relative=1e-3, time_scaled=True, resolution=Resolution(1e-4)
+    )
     budget = zero_offset_uncertainty(0.02, evidence, BENCH)
     model = zero_offset_model(0.02, evidence, budget)
     assert_slopes_are_sensitivities(model, budget, 0.02, 1e-4)
@@ -114,7 +117,7 @@ def test_the_slopes_of_B_are_the_sensitivities_of_its_budget(positions: str) -> 
 @pytest.mark.parametrize("rate_source", ["demanded", "table"])
 def test_the_slopes_of_K_and_F0_are_the_sensitivities_of_their_budgets(rate_source: RateSource) -> None:
     fit = fit_scale_factor(RATES, MEANS, 0.001, 0.002)
-    evidence = replace(rates_evidence(), noise=DRIFTING, resolution=1e-3)
+    evidence = replace(rates_evidence(), noise=DRIFTING, resolution=Resolution(1e-3))
     budget, budget_F0 = budgets(fit, evidence, rate_source, time_scaled=True)
     K, F0 = scale_factor_model(fit, budget), offset_model(fit, budget_F0)
     # ε acts by its cosine, whose slope at 0 is 0; its row takes the secant

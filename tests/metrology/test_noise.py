@@ -14,7 +14,6 @@ from ahrs_lab.metrology.uncertainty.noise import (
     drift_variance,
     fit_noise,
     neighbour_variance,
-    resolution_step,
     standard_error,
 )
 
@@ -201,8 +200,3 @@ def test_drift_is_known_as_well_as_its_coefficients() -> None:
         variance, dof = drift_variance(np.array([1.0, -1.0]), np.arange(2.0), np.ones(2), known)
         assert dof == pytest.approx(100.0)
         assert variance == pytest.approx(known.flicker**2 * 4.0 * math.log(2.0) / math.pi)
-
-
-def test_the_resolution_is_the_smallest_step() -> None:
-    assert resolution_step(np.array([0.5, 0.25, 0.5, 1.0])) == 0.25
-    assert resolution_step(np.full(9, 0.5)) == 0.0

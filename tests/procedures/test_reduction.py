@@ -262,6 +262,28 @@ def test_a_device_that_gives_accumulated_angles() -> None:
     assert pytest.approx(2e-3, abs=1e-9) == result.misalignment["zx"].L
 
 
+@pytest.mark.parametrize("attitude", [False, True])
+def test_the_resolution_of_angles_is_that_of_their_columns(attitude: bool) -> None:
+    """0.001° at 10 samples a second: 0.01 °/s of one increment, and two readings of a position's angle."""
+    unit = VirtualUnit(density=2.5e-3)
+    columns = ("heading_deg", "pitch_deg", "roll_deg") if attitude else ("angle_x", "angle_y", "angle_z")
+    made = []
+    for recorded in [*unit.rates("x"), *unit.positions("x", 60.0)]:
+        gyro = (recorded.samples[f"gyro_{axis}"] for axis in AXES)
+        angles = [np.round(np.cumsum(rate) / unit.sample_rate_hz / 0.001) * 0.001 for rate in gyro]
+        made.append(
+            without(
+                changed(recorded, **dict(zip(columns, angles, strict=True))), "gyro_x", "gyro_y", "gyro_z"
+            )
+        )
+    recording = unit.recording(made)
+    rows = {row.symbol: row for row in reduce_recording(recording).zero_offset["x"].uncertainty.rows}
+    assert rows["q"].unit == "deg"
+    assert rows["q"].half_width == pytest.approx(0.0005, rel=1e-6)
+    bits = reduce_recording(recording, uncertainty="annex-a").scale_factor["x"].uncertainty.rows[1]
+    assert bits.half_width == pytest.approx(0.01 / 600.0, rel=0.01)
+
+
 def test_a_device_that_gives_attitude_only() -> None:
     """X up turns the heading, which counts clockwise and wraps; a drifting heading is a zero offset."""
     unit = VirtualUnit()

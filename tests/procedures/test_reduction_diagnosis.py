@@ -39,9 +39,11 @@ def test_a_good_recording_warns_of_nothing() -> None:
     assert from_json_text(to_json_text(result)).diagnosis == result.diagnosis
 
 
-def test_a_recording_without_noise_warns_of_nothing() -> None:
+def test_a_recording_without_noise_warns_of_nothing_but_the_rectangle_of_its_resolution() -> None:
+    """Each position shows one value: what they differ by stands for the resolution."""
     unit = VirtualUnit(K=(1.001, 0.999, 1.0), L={"yx": 1e-3})
-    assert not reduce_recording(unit.standard()).warnings
+    said = diagnosed(reduce_recording(unit.standard()))
+    assert all("(JCGM 101, clause 8)" in text for text in said)
 
 
 def test_a_rate_that_stands_apart_is_named_and_not_dropped() -> None:

@@ -14,7 +14,9 @@ from scipy.stats import binom, chi2
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.result import Uncertainty
 from ahrs_lab.procedures import reduction
-from tests.procedures.virtual_unit import RATES, VirtualUnit
+from ahrs_lab.recording.orientation import AXES
+from ahrs_lab.recording.read import RecordedSegment
+from tests.procedures.virtual_unit import RATES, VirtualUnit, changed
 
 reduce_recording = partial(reduction.reduce_recording, trials=0)
 """Without the Monte Carlo check, which has tests of its own."""
@@ -137,3 +139,38 @@ def test_figures_of_a_certificate_are_told_from_assumptions() -> None:
     assert origins["Ω"] == "certificate"
     assert origins["ε"] == "assumption"
     assert origins["F̄"] == "data"
+
+
+STEP = 0.02
+"""°/s, far above what a filtered output scatters by."""
+
+
+def filtered(recorded: RecordedSegment) -> RecordedSegment:
+    """An output that shows one code throughout."""
+    columns = {
+        f"gyro_{axis}": np.full(
+            len(recorded.samples), np.round(recorded.samples[f"gyro_{axis}"].mean() / STEP) * STEP
+        )
+        for axis in "xyz"
+    }
+    return changed(recorded, **columns)
+
+
+def test_codes_that_never_change_at_rest_are_uncertain_by_the_step_between_them() -> None:
+    """The true B lies within half a step of what such an output shows; U has to say so."""
+    unit = VirtualUnit(B=(0.4 * STEP, -0.7 * STEP, 1.3 * STEP), density=DENSITY)
+    made = [filtered(one) for axis in AXES for one in [*unit.rates(axis), *unit.positions(axis)]]
+    result = reduce_recording(unit.recording(made), capability=PERFECT_BENCH)
+    for axis, true in zip(AXES, unit.B, strict=True):
+        found = result.zero_offset[axis]
+        assert abs(found.B - true) <= found.uncertainty.expanded
+        assert found.uncertainty.expanded > 0.2 * STEP
+    assert not any("its resolution is not known" in one.what.text() for one in result.warnings)
+
+
+def test_an_output_without_any_step_is_named() -> None:
+    unit = VirtualUnit(earth_dps=0.0)
+    result = reduce_recording(unit.recording(unit.positions("x")), capability=PERFECT_BENCH)
+    (said,) = [one.what for one in result.warnings if "its resolution is not known" in one.what.text()]
+    assert said.text().startswith("output X")
+    assert said.text("zh").startswith("输出 X")

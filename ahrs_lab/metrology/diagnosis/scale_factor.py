@@ -77,9 +77,7 @@ def diagnose_scale_factor(
 
 def _standard_errors(evidence: ScaleFactorEvidence) -> Array:
     """Of the means; where the noise does not spread readings over steps, the resolution is their limit."""
-    if evidence.dithered:
-        return evidence.standard_errors
-    return np.hypot(evidence.standard_errors, evidence.resolution / math.sqrt(12.0))
+    return np.sqrt(evidence.standard_errors**2 + evidence.unseen_variances[:-2])
 
 
 def _lack_of_fit(
@@ -119,7 +117,7 @@ def _drift(evidence: ScaleFactorEvidence, statics: tuple[float, float], full_sca
         np.array(evidence.rest_durations_s),
         evidence.noise,
     )
-    steps = 0.0 if evidence.dithered else evidence.resolution**2 / 6.0
+    steps = float(evidence.unseen_variances[-2:].sum())
     standard = math.sqrt(float(white.sum()) + drift + steps)
     if standard <= _LEAST_RELATIVE * full_scale:
         return None

@@ -14,6 +14,7 @@ from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.uncertainty.bench_figure import from_figure
 from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
 from ahrs_lab.metrology.uncertainty.noise import WHITE_NOISE, NoiseModel, drift_variance
+from ahrs_lab.metrology.uncertainty.resolution import Resolution
 
 
 @dataclass(frozen=True)
@@ -32,8 +33,7 @@ class MisalignmentEvidence:
     starts_s: tuple[float, float]
     repeats: int
     samples: int
-    resolution_dps: float
-    dithered: bool
+    resolution: Resolution
     noise: NoiseModel
     rest_rate_dps: float
     scale_relative: float = 0.0
@@ -45,18 +45,7 @@ def misalignment_uncertainty(
     """u_c and U of L in rad, ∂L/∂N = ±1/(720·n)."""
     per_degree = 1.0 / (720.0 * evidence.turns)
     rows = [*_recording_rows(evidence, per_degree), *_axis_rows(evidence, L, capability)]
-    samples = evidence.samples if evidence.dithered else 1
-    duration = 0.5 * (evidence.duration_positive_s + evidence.duration_negative_s)
-    rows.append(
-        from_half_width(
-            "q",
-            Message("Resolution of the output"),
-            "deg/s",
-            0.5 * evidence.resolution_dps,
-            math.sqrt(2.0 / samples) * duration * per_degree,
-            "data",
-        )
-    )
+    rows.append(_resolution_row(evidence, per_degree))
     if evidence.scale_relative > 0.0:
         rows.append(
             type_a(
@@ -64,6 +53,21 @@ def misalignment_uncertainty(
             )
         )
     return combine(rows)
+
+
+def _resolution_row(evidence: MisalignmentEvidence, per_degree: float) -> BudgetRow:
+    """Of N⁺ and N⁻: means over their durations, of angles the difference of two readings each."""
+    resolution = evidence.resolution
+    durations = np.array([evidence.duration_positive_s, evidence.duration_negative_s])
+    angles = durations * resolution.mean_factors(durations, np.full(2, float(evidence.samples)))
+    return from_half_width(
+        "q",
+        Message("Resolution of the output"),
+        "deg" if resolution.of_angle else "deg/s",
+        0.5 * resolution.step,
+        math.sqrt(float(angles @ angles)) * per_degree,
+        "data",
+    )
 
 
 def _recording_rows(evidence: MisalignmentEvidence, per_degree: float) -> list[BudgetRow]:

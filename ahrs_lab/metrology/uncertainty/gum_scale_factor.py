@@ -22,6 +22,7 @@ from ahrs_lab.metrology.scale_factor import ScaleFactorFit
 from ahrs_lab.metrology.uncertainty.bench_figure import BenchFigure, from_figure, root_sum
 from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel, drift_variance
+from ahrs_lab.metrology.uncertainty.resolution import Resolution
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
@@ -35,8 +36,8 @@ class ScaleFactorEvidence:
     """What the data say about the M means of (10) and the two at rest; arrays of shape (M,), the device's
     unit.
 
-    ``starts_s`` are on one time scale with ``rest_starts_s`` (F_s, F_e). ``resolution`` is the output's
-    step, ``samples`` per mean; ``dithered`` where the noise spreads a reading over several steps.
+    ``starts_s`` are on one time scale with ``rest_starts_s`` (F_s, F_e). ``samples`` and ``rest_samples`` are
+    per mean.
     """
 
     standard_errors: Array
@@ -47,9 +48,9 @@ class ScaleFactorEvidence:
     rest_dofs: tuple[float, float]
     rest_durations_s: tuple[float, float]
     rest_starts_s: tuple[float, float]
+    rest_samples: tuple[float, float]
     samples: Array
-    resolution: float
-    dithered: bool
+    resolution: Resolution
     noise: NoiseModel
     latitude_deg: float
 
@@ -61,6 +62,12 @@ class ScaleFactorEvidence:
     @property
     def all_durations_s(self) -> Array:
         return np.array([*self.durations_s, *self.rest_durations_s])
+
+    @property
+    def unseen_variances(self) -> Array:
+        """Shape (M + 2,): of the means by the resolution, beyond the scatter of their readings."""
+        samples = np.array([*self.samples, *self.rest_samples])
+        return self.resolution.unseen_variances(self.all_durations_s, samples)
 
 
 def scale_factor_uncertainty(
@@ -86,7 +93,7 @@ def scale_factor_uncertainty(
     data_F0 = _data_rows(F0_weights, evidence, scatter, device_unit, F0_scale)
     data_F0 += [_rest_row(evidence, device_unit), _level_row(fit, evidence, capability)]
     timing: list[BudgetRow] = []
-    if time_scaled or rate_source == "table":
+    if time_scaled != (rate_source == "table"):  # on both sides it is one clock, which cancels in K
         timing.append(
             from_figure("t", Message("Time base"), "1", capability.figure("timing_relative"), fit.K)
         )
@@ -114,18 +121,26 @@ def _data_rows(
         )
     )
     rows.append(_drift_row(weights, evidence, unit))
-    per_mean = weights / np.sqrt(evidence.samples) if evidence.dithered else weights
-    rows.append(
-        from_half_width(
-            "q",
-            Message("Resolution of the output"),
-            unit,
-            0.5 * evidence.resolution,
-            math.sqrt(float(per_mean @ per_mean)),
-            "data",
-        )
-    )
+    rows.append(_resolution_row(weights, evidence, unit))
     return rows
+
+
+def _resolution_row(weights: Array, evidence: ScaleFactorEvidence, unit: str) -> BudgetRow:
+    """Of the means at the rates and of F_r, whose weight is −Σw (0 for K). Undithered F_s and F_e show one
+    code, so their error is one."""
+    resolution = evidence.resolution
+    per_mean = weights * resolution.mean_factors(evidence.durations_s, evidence.samples)
+    rest = 0.5 * resolution.mean_factors(np.array(evidence.rest_durations_s), np.array(evidence.rest_samples))
+    alike = not resolution.dithered and not resolution.of_angle
+    of_rest = float(rest.sum()) ** 2 if alike else float(rest @ rest)
+    return from_half_width(
+        "q",
+        Message("Resolution of the output"),
+        "deg" if resolution.of_angle else unit,
+        0.5 * resolution.step,
+        math.sqrt(float(per_mean @ per_mean) + float(weights.sum()) ** 2 * of_rest),
+        "data",
+    )
 
 
 def _drift_row(weights: Array, evidence: ScaleFactorEvidence, unit: str) -> BudgetRow:
@@ -146,12 +161,12 @@ def _drift_row(weights: Array, evidence: ScaleFactorEvidence, unit: str) -> Budg
 
 
 def unexplained_scatter(fit: ScaleFactorFit, evidence: ScaleFactorEvidence) -> tuple[float, float]:
-    """Variance of a mean beyond noise and drift, and its degrees of freedom.
+    """Variance of a mean beyond noise, drift and resolution, and its degrees of freedom.
 
     K is the slope of the least squares line through the response at the rates run, so what a smooth
     nonlinearity or asymmetry leaves beside the line is the unit's own (it is stated in ppm), not an error of
-    K. Scatter is counted about a curve with Ω², |Ω| and Ω³ too, and only where noise and drift would exceed
-    it in fewer than one case in twenty.
+    K. Scatter is counted about a curve with Ω², |Ω| and Ω³ too, and only where noise, drift and resolution
+    would exceed it in fewer than one case in twenty.
     """
     rates = np.array(fit.rates_dps) / max(abs(rate) for rate in fit.rates_dps)
     curve = np.column_stack([np.ones_like(rates), rates, rates**2, np.abs(rates), rates**3])
@@ -163,7 +178,8 @@ def unexplained_scatter(fit: ScaleFactorFit, evidence: ScaleFactorEvidence) -> t
         return 0.0, math.inf
     scatter = float(np.sum((contrasts @ np.array(fit.outputs)) ** 2))
     drift, _ = drift_variance(contrasts, evidence.starts_s, evidence.durations_s, evidence.noise)
-    expected = float(np.sum(contrasts**2 @ evidence.standard_errors**2)) + drift
+    own = evidence.standard_errors**2 + evidence.unseen_variances[:-2]
+    expected = float(np.sum(contrasts**2 @ own)) + drift
     if scatter <= expected * float(chdtri(freedom, SIGNIFICANCE)) / freedom:
         return 0.0, freedom
     return (scatter - expected) / freedom, freedom

@@ -20,6 +20,7 @@ from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.uncertainty.bench_figure import from_figure
 from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
 from ahrs_lab.metrology.uncertainty.noise import WHITE_NOISE, NoiseModel
+from ahrs_lab.metrology.uncertainty.resolution import Resolution
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
@@ -31,7 +32,7 @@ class ZeroOffsetEvidence:
 
     ``directions``: shape (n, 3), where the axis points, east-north-up. ``turned_deg``: shape (n,), the
     table's azimuth; ``mountings``: shape (n,), equal where the case
-    was not re-mounted between. ``resolution_dps``, ``samples``, ``dithered`` as for the scale factor.
+    was not re-mounted between. ``resolution`` is in °/s, or of the angle in deg.
     ``scale_relative``: standard uncertainty of the fitted K where counts were scaled by it, else 0.
     """
 
@@ -42,8 +43,7 @@ class ZeroOffsetEvidence:
     durations_s: Array
     repeats: Array
     samples: Array
-    resolution_dps: float
-    dithered: bool
+    resolution: Resolution
     noise: NoiseModel
     latitude_deg: float
     scale_relative: float = 0.0
@@ -54,19 +54,7 @@ def zero_offset_uncertainty(
     B: float, evidence: ZeroOffsetEvidence, capability: BenchCapability
 ) -> Uncertainty:
     """u_c and U of B in °/s. Rate random walk and flicker during the dwells belong to B, not to U (7.2)."""
-    rows = [*_dwell_rows(evidence), *_earth_rows(evidence, capability)]
-    samples = evidence.samples if evidence.dithered else np.ones_like(evidence.samples)
-    count = len(evidence.durations_s)
-    rows.append(
-        from_half_width(
-            "q",
-            Message("Resolution of the output"),
-            "deg/s",
-            0.5 * evidence.resolution_dps,
-            math.sqrt(float(np.sum(1.0 / samples))) / count,
-            "data",
-        )
-    )
+    rows = [*_dwell_rows(evidence), *_earth_rows(evidence, capability), _resolution_row(evidence)]
     if evidence.time_scaled:
         rows.append(from_figure("t", Message("Time base"), "1", capability.figure("timing_relative"), -B))
     if evidence.scale_relative > 0.0:
@@ -76,6 +64,20 @@ def zero_offset_uncertainty(
             )
         )
     return combine(rows)
+
+
+def _resolution_row(evidence: ZeroOffsetEvidence) -> BudgetRow:
+    """Undithered, the positions show the same code, and its error is that of all of them: 1, not 1/√n."""
+    resolution = evidence.resolution
+    factors = resolution.mean_factors(evidence.durations_s, evidence.samples) / len(evidence.durations_s)
+    return from_half_width(
+        "q",
+        Message("Resolution of the output"),
+        "deg" if resolution.of_angle else "deg/s",
+        0.5 * resolution.step,
+        math.sqrt(float(factors @ factors)) if resolution.dithered else float(factors.sum()),
+        "data",
+    )
 
 
 def _dwell_rows(evidence: ZeroOffsetEvidence) -> list[BudgetRow]:

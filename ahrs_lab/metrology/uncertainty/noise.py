@@ -264,10 +264,3 @@ def drift_variance(
         return variance, math.inf
     known = np.array(noise.covariance)[2:, 2:]
     return variance, max(1.0, 2.0 * variance**2 / float(units @ known @ units))
-
-
-def resolution_step(column: Array, looked_at: int = 4096) -> float:
-    """Smallest step between different values among the first samples: the output's resolution, 0 if it never
-    changes."""
-    values = np.unique(column[:looked_at])
-    return float(np.diff(values).min()) if len(values) > 1 else 0.0

@@ -90,10 +90,9 @@ def _reduce(
         warnings += said
         if scale_factor is not None:
             scale_factors[axis] = scale_factor
-    zero_offsets, said = reduce_zero_offsets(evidence, scale_factors, combined=combined)
-    warnings += said
     misalignments, said = reduce_misalignments(evidence, scale_factors)
-    warnings += said
+    zero_offsets, of_B = reduce_zero_offsets(evidence, scale_factors, misalignments, combined=combined)
+    warnings += [*of_B, *said]
     if not scale_factors and not zero_offsets and not misalignments:
         raise _nothing(warnings)
     warnings += unknown_resolution(evidence, scale_factors, zero_offsets, misalignments)

@@ -13,6 +13,7 @@ from ahrs_lab.metrology.result import (
     ResultWarning,
     ScaleFactorResult,
 )
+from ahrs_lab.metrology.uncertainty.fitted_scale import UNSCALED, FittedScale
 from ahrs_lab.metrology.uncertainty.full_misalignment import misalignment_model
 from ahrs_lab.metrology.uncertainty.full_model import check_by_monte_carlo
 from ahrs_lab.metrology.uncertainty.gum_misalignment import MisalignmentEvidence, misalignment_uncertainty
@@ -103,13 +104,13 @@ def _unequal_durations(
 
 def _scale(
     output: Axis, unit: str, scale_factors: Mapping[Axis, ScaleFactorResult]
-) -> tuple[float, float] | None:
-    """Factor to °/s and its relative standard uncertainty; None for counts without a fitted K."""
+) -> tuple[float, FittedScale] | None:
+    """Factor to °/s and what it rests on; None for counts without a fitted K."""
     factor = degrees_factor(unit)
     if factor is not None:
-        return factor, 0.0
+        return factor, UNSCALED
     K = scale_factors.get(output)
-    return None if K is None or K.K == 0.0 else (1.0 / K.K, K.uncertainty.standard / abs(K.K))
+    return None if K is None or K.K == 0.0 else (1.0 / K.K, FittedScale.of(K.K, K.uncertainty))
 
 
 def _result(
@@ -118,9 +119,9 @@ def _result(
     turned: Axis,
     positive: Sequence[Take],
     negative: Sequence[Take],
-    scale: tuple[float, float],
+    scale: tuple[float, FittedScale],
 ) -> MisalignmentResult:
-    factor, scale_relative = scale
+    factor, fitted = scale
     turns = abs(positive[0].segment.turns or 0)
     angle_positive, angle_negative = (
         factor * sum(take.output.turned_angle(output) for take in takes) / len(takes)
@@ -141,7 +142,7 @@ def _result(
         noise=evidence.noise[output].scaled(factor),
         # what both recordings show alike: zero offset and Earth's rate
         rest_rate_dps=0.5 * (angle_positive + angle_negative) / duration,
-        scale_relative=scale_relative,
+        scale=fitted,
     )
     budget = misalignment_uncertainty(L, recorded, evidence.capability)
     rate = abs(positive[0].segment.rate_dps)

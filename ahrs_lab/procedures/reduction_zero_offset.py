@@ -14,7 +14,13 @@ from numpy.typing import NDArray
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
-from ahrs_lab.metrology.result import ResultWarning, ScaleFactorResult, ZeroOffsetResult
+from ahrs_lab.metrology.result import (
+    MisalignmentResult,
+    ResultWarning,
+    ScaleFactorResult,
+    ZeroOffsetResult,
+)
+from ahrs_lab.metrology.uncertainty.fitted_scale import UNSCALED, FittedScale
 from ahrs_lab.metrology.uncertainty.full_model import check_by_monte_carlo
 from ahrs_lab.metrology.uncertainty.full_zero_offset import zero_offset_model
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence, zero_offset_uncertainty
@@ -53,7 +59,11 @@ class _Position:
 
 
 def reduce_zero_offsets(
-    evidence: Evidence, scale_factors: Mapping[Axis, ScaleFactorResult], *, combined: bool
+    evidence: Evidence,
+    scale_factors: Mapping[Axis, ScaleFactorResult],
+    misalignments: Mapping[str, MisalignmentResult],
+    *,
+    combined: bool,
 ) -> tuple[dict[Axis, ZeroOffsetResult], list[ResultWarning]]:
     """B of every axis that was asked for. ``combined``: the four positions of one axis serve all three."""
     found: dict[Axis, ZeroOffsetResult] = {}
@@ -66,7 +76,7 @@ def reduce_zero_offsets(
             warnings += [left_out(Message("zero offset"), axis, reason) for axis in targets]
         elif takes:
             for axis in targets:
-                result, said = _reduce(evidence, axis, source, takes, scale_factors)
+                result, said = _reduce(evidence, axis, source, takes, scale_factors, misalignments)
                 warnings += said
                 if result is not None:
                     found[axis] = result
@@ -79,23 +89,48 @@ def _reduce(
     source: Axis,
     takes: Sequence[Take],
     scale_factors: Mapping[Axis, ScaleFactorResult],
+    misalignments: Mapping[str, MisalignmentResult],
 ) -> tuple[ZeroOffsetResult | None, list[ResultWarning]]:
     item = Message("zero offset")
     factor = degrees_factor(takes[0].output.unit)
-    scale_relative = 0.0
+    fitted = UNSCALED
     if factor is None:
         if axis not in scale_factors or scale_factors[axis].K == 0.0:
             return None, [
                 left_out(item, axis, Message("its counts need the fitted scale factor, which is not there."))
             ]
         K = scale_factors[axis]
-        factor, scale_relative = 1.0 / K.K, K.uncertainty.standard / abs(K.K)
+        factor, fitted = 1.0 / K.K, FittedScale.of(K.K, K.uncertainty)
     try:
         schedule, positions = _positions(axis, source, takes)
     except InputError as error:
         return None, [left_out(item, axis, error.message)]
     warnings = _unequal_durations(axis, positions)
-    return _result(evidence, axis, schedule, positions, factor, scale_relative), warnings
+    leans = 0.0
+    if schedule == "multi-position":
+        known = misalignments.get(axis + _upright(positions))
+        if known is None:
+            warnings.append(_unknown_lean(axis, _upright(positions)))
+        else:
+            leans = abs(known.L)
+    return _result(evidence, axis, schedule, positions, factor, fitted, leans), warnings
+
+
+def _upright(positions: Sequence[_Position]) -> Axis:
+    """The case axis that stands vertical."""
+    return AXES[int(np.argmax(np.abs(positions[0].orientation.matrix[2])))]
+
+
+def _unknown_lean(axis: Axis, upright: Axis) -> ResultWarning:
+    return ResultWarning(
+        Message(
+            "zero offset {axis}: its misalignment about {upright} was not measured; what it lets in of the "
+            "Earth's vertical rate does not cancel over the azimuths, and the uncertainty does not contain "
+            "it.",
+            axis=axis.upper(),
+            upright=upright.upper(),
+        )
+    )
 
 
 def _positions(axis: Axis, source: Axis, takes: Sequence[Take]) -> tuple[Schedule, list[_Position]]:
@@ -184,7 +219,8 @@ def _result(
     schedule: Schedule,
     positions: Sequence[_Position],
     factor: float,
-    scale_relative: float,
+    fitted: FittedScale,
+    leans: float,
 ) -> ZeroOffsetResult:
     takes = [take for position in positions for take in position.takes]
     durations = np.array([position.duration_s for position in positions])
@@ -197,7 +233,7 @@ def _result(
     B = zero_offset(angles, durations)
     duration = float(durations.mean())
     repeatability, cycles = _repeatability(evidence, axis, positions, factor, duration)
-    recorded = _budget_input(evidence, axis, positions, angles, durations, factor, scale_relative)
+    recorded = _budget_input(evidence, axis, positions, angles, durations, factor, fitted, leans)
     budget = zero_offset_uncertainty(B, recorded, evidence.capability)
     if evidence.method == "annex-a":
         repeated = [row.contribution for row in budget.rows if row.symbol.startswith("N_")]
@@ -266,7 +302,8 @@ def _budget_input(
     angles: Array,
     durations: Array,
     factor: float,
-    scale_relative: float,
+    fitted: FittedScale,
+    leans: float,
 ) -> ZeroOffsetEvidence:
     directions = np.array([position.direction for position in positions])
     mountings = tuple(position.orientation.face for position in positions)
@@ -283,7 +320,8 @@ def _budget_input(
         resolution=evidence.resolution[axis].scaled(factor),
         noise=evidence.noise[axis].scaled(factor),
         latitude_deg=evidence.site.latitude_deg,
-        scale_relative=scale_relative,
+        scale=fitted,
+        leans=leans,
         time_scaled=positions[0].takes[0].output.source != "rate",
     )
 

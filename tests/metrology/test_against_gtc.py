@@ -14,6 +14,7 @@ from ahrs_lab.messages import Message
 from ahrs_lab.metrology.result import Correlation, Uncertainty
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
 from ahrs_lab.metrology.uncertainty.budget import combine, type_a
+from ahrs_lab.metrology.uncertainty.fitted_scale import FittedScale
 from ahrs_lab.metrology.uncertainty.gum_misalignment import misalignment_uncertainty
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import zero_offset_uncertainty
 from ahrs_lab.metrology.uncertainty.noise import NoiseModel
@@ -117,8 +118,10 @@ def quantities() -> dict[str, Uncertainty]:
     fit = fit_scale_factor(RATES, MEANS, 0.001, 0.002)
     K, F0 = budgets(fit, evidence, time_scaled=True)
     K_measured, F0_measured = budgets(fit, evidence, "table")
-    positions = replace(four_positions(), noise=NOISE, scale_relative=1e-3, time_scaled=True)
-    in_turns = replace(turns(), noise=NOISE, scale_relative=1e-3, resolution=Resolution(1e-3))
+    positions = replace(
+        four_positions(), noise=NOISE, scale=FittedScale(1e-3, 12.0), time_scaled=True, leans=1e-3
+    )
+    in_turns = replace(turns(), noise=NOISE, scale=FittedScale(1e-3), resolution=Resolution(1e-3))
     return {
         "K": K,
         "F0": F0,

@@ -15,6 +15,7 @@ from ahrs_lab.metrology.misalignment import misalignment
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
 from ahrs_lab.metrology.uncertainty.budget import combine, from_expanded, from_half_width, type_a
+from ahrs_lab.metrology.uncertainty.fitted_scale import FittedScale
 from ahrs_lab.metrology.uncertainty.full_misalignment import misalignment_model
 from ahrs_lab.metrology.uncertainty.full_model import (
     LINEAR,
@@ -105,7 +106,11 @@ POSITIONS = {
 @pytest.mark.parametrize("positions", POSITIONS)
 def test_the_slopes_of_B_are_the_sensitivities_of_its_budget(positions: str) -> None:
     evidence = replace(
-        POSITIONS[positions], scale_relative=1e-3, time_scaled=True, resolution=Resolution(1e-4)
+        POSITIONS[positions],
+        scale=FittedScale(1e-3, 12.0),
+        time_scaled=True,
+        resolution=Resolution(1e-4),
+        leans=1e-3,
     )
     budget = zero_offset_uncertainty(0.02, evidence, BENCH)
     model = zero_offset_model(0.02, evidence, budget)
@@ -129,7 +134,7 @@ def test_the_slopes_of_K_and_F0_are_the_sensitivities_of_their_budgets(rate_sour
 
 def test_the_slopes_of_L_are_the_sensitivities_of_its_budget() -> None:
     evidence = replace(
-        turns(), scale_relative=1e-3, rest_rate_dps=0.01, duration_negative_s=36.1, noise=DRIFTING
+        turns(), scale=FittedScale(1e-3), rest_rate_dps=0.01, duration_negative_s=36.1, noise=DRIFTING
     )
     budget = misalignment_uncertainty(0.01, evidence, BENCH)
     model = misalignment_model(0.01, evidence, budget)

@@ -9,9 +9,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import ARCSEC
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.scale_factor import fit_scale_factor
+from ahrs_lab.metrology.uncertainty.bench_figure import BenchFigure, from_figure
+from ahrs_lab.metrology.uncertainty.budget import combine
+from ahrs_lab.metrology.uncertainty.fitted_scale import FittedScale
 from ahrs_lab.metrology.uncertainty.gum_misalignment import misalignment_uncertainty
 from ahrs_lab.metrology.uncertainty.gum_scale_factor import scale_factor_uncertainty
 from ahrs_lab.metrology.uncertainty.gum_zero_offset import zero_offset_uncertainty
@@ -76,8 +80,23 @@ def test_the_noise_of_four_positions_is_half_the_density_over_root_T() -> None:
 
 
 def test_counts_bring_the_uncertainty_of_their_scale_factor() -> None:
-    found = zero_offset_uncertainty(0.02, replace(four_positions(), scale_relative=1e-4), BENCH)
+    found = zero_offset_uncertainty(0.02, replace(four_positions(), scale=FittedScale(1e-4)), BENCH)
     assert row(found, "K").contribution == pytest.approx(2e-6)
+
+
+def test_a_fitted_scale_factor_hands_on_what_it_rests_on() -> None:
+    """u(K) by the table's rate is an assumption or a certificate, and type B; by noise it is data."""
+    by_rate, by_noise = FittedScale.of(1.01, scale_factor(1e-6)), FittedScale.of(1.01, scale_factor(2.0))
+    assert (by_rate.kind, by_rate.origin, by_rate.certificate) == ("B", "assumption", "")
+    assert (by_noise.kind, by_noise.origin) == ("A", "data")
+    assert by_noise.dof == scale_factor(2.0).dof < 200.0
+    figure = BenchFigure(2e-4, dof=8.0, distribution="t", origin="certificate", certificate="R-1")
+    rows = [from_figure("Ω", Message("Time base"), "1", figure, 1.0)]
+    certified = FittedScale.of(1.0, combine(rows))
+    assert (certified.kind, certified.origin, certified.certificate) == ("B", "certificate", "R-1")
+    handed_on = row(zero_offset_uncertainty(0.02, replace(four_positions(), scale=certified), BENCH), "K")
+    assert (handed_on.dof, handed_on.kind, handed_on.certificate) == (8.0, "B", "R-1")
+    assert handed_on.contribution == pytest.approx(2e-6)
 
 
 def test_the_sensitivities_are_those_of_a_tilted_case() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import statistics
 from dataclasses import replace
 from functools import partial
@@ -143,6 +144,21 @@ def test_four_positions_of_one_axis_give_all_three_where_the_plan_is_the_combine
 def test_without_that_plan_they_give_the_one_that_was_asked() -> None:
     unit = VirtualUnit()
     assert set(reduce_recording(unit.recording(unit.positions("y"))).zero_offset) == {"y"}
+
+
+def test_multi_position_states_what_a_misaligned_axis_feels_of_the_vertical_rate() -> None:
+    """With Z up (table 2 of X) L_xz of the vertical rate is the same at every azimuth: B is off by it."""
+    unit = VirtualUnit(B=(1e-3, 0.0, 0.0), L={"xz": 2e-3, "xy": 5e-3}, latitude_deg=30.0)
+    lets_in = 2e-3 * EARTH_DPS * math.sin(math.radians(30.0))
+    alone = reduce_recording(unit.recording(unit.azimuths("x")))
+    assert pytest.approx(lets_in, rel=1e-6) == alone.zero_offset["x"].B - 1e-3
+    (said,) = [one.what for one in alone.warnings if "was not measured" in one.what.text()]
+    assert said.text().startswith("zero offset X: its misalignment about Z")
+    known = reduce_recording(unit.recording([*unit.azimuths("x"), *unit.turns("z")]))
+    assert not [one for one in known.warnings if "was not measured" in one.what.text()]
+    row = next(row for row in known.zero_offset["x"].uncertainty.rows if row.symbol == "λ")
+    assert row.contribution * math.sqrt(3.0) == pytest.approx(lets_in, rel=1e-6)
+    assert known.zero_offset["x"].B == alone.zero_offset["x"].B
 
 
 @pytest.mark.parametrize("axis", AXES)

@@ -63,7 +63,7 @@ class _Places:
 def zero_offset_model(B: float, evidence: ZeroOffsetEvidence, budget: Uncertainty) -> FullModel:
     """B = mean(N_i/T_i)/((1 + t)(1 + κ)) less what the errors let in of the Earth's rate."""
     noise = [row.symbol for row in budget.rows if row.symbol.startswith("N_")]
-    inputs = Inputs(by_symbol(budget, *noise, "q"))
+    inputs = Inputs(by_symbol(budget, *noise, "q", "λ"))
     relative = [inputs.add(row) for row in by_symbol(budget, "t", "K")]
     leverage = EarthLeverage.of(evidence)
     places = _add_errors(inputs, leverage, budget)

@@ -13,6 +13,7 @@ from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.uncertainty.bench_figure import from_figure
 from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
+from ahrs_lab.metrology.uncertainty.fitted_scale import UNSCALED, FittedScale
 from ahrs_lab.metrology.uncertainty.noise import WHITE_NOISE, NoiseModel, drift_variance
 from ahrs_lab.metrology.uncertainty.resolution import Resolution
 
@@ -36,7 +37,7 @@ class MisalignmentEvidence:
     resolution: Resolution
     noise: NoiseModel
     rest_rate_dps: float
-    scale_relative: float = 0.0
+    scale: FittedScale = UNSCALED
 
 
 def misalignment_uncertainty(
@@ -46,12 +47,8 @@ def misalignment_uncertainty(
     per_degree = 1.0 / (720.0 * evidence.turns)
     rows = [*_recording_rows(evidence, per_degree), *_axis_rows(evidence, L, capability)]
     rows.append(_resolution_row(evidence, per_degree))
-    if evidence.scale_relative > 0.0:
-        rows.append(
-            type_a(
-                "K", Message("Fitted scale factor"), "1", evidence.scale_relative, -L, math.inf, estimate=1.0
-            )
-        )
+    if evidence.scale.relative > 0.0:
+        rows.append(evidence.scale.row(L))
     return combine(rows)
 
 

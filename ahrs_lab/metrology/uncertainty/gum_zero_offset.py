@@ -19,6 +19,7 @@ from ahrs_lab.metrology.conditions import ARCSEC, BenchCapability
 from ahrs_lab.metrology.result import BudgetRow, Uncertainty
 from ahrs_lab.metrology.uncertainty.bench_figure import from_figure
 from ahrs_lab.metrology.uncertainty.budget import combine, from_half_width, type_a
+from ahrs_lab.metrology.uncertainty.fitted_scale import UNSCALED, FittedScale
 from ahrs_lab.metrology.uncertainty.noise import WHITE_NOISE, NoiseModel
 from ahrs_lab.metrology.uncertainty.resolution import Resolution
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
@@ -33,7 +34,8 @@ class ZeroOffsetEvidence:
     ``directions``: shape (n, 3), where the axis points, east-north-up. ``turned_deg``: shape (n,), the
     table's azimuth; ``mountings``: shape (n,), equal where the case
     was not re-mounted between. ``resolution`` is in °/s, or of the angle in deg.
-    ``scale_relative``: standard uncertainty of the fitted K where counts were scaled by it, else 0.
+    ``scale``: the fitted K where counts were scaled by it. ``leans``: |L|, rad, by which the axis feels the
+    rate about the vertical at every stop of the multi-position method; 0 where it is not known or cancels.
     """
 
     directions: Array
@@ -46,8 +48,9 @@ class ZeroOffsetEvidence:
     resolution: Resolution
     noise: NoiseModel
     latitude_deg: float
-    scale_relative: float = 0.0
+    scale: FittedScale = UNSCALED
     time_scaled: bool = False
+    leans: float = 0.0
 
 
 def zero_offset_uncertainty(
@@ -55,14 +58,12 @@ def zero_offset_uncertainty(
 ) -> Uncertainty:
     """u_c and U of B in °/s. Rate random walk and flicker during the dwells belong to B, not to U (7.2)."""
     rows = [*_dwell_rows(evidence), *_earth_rows(evidence, capability), _resolution_row(evidence)]
+    if evidence.leans > 0.0:
+        rows.append(_vertical_row(evidence))
     if evidence.time_scaled:
         rows.append(from_figure("t", Message("Time base"), "1", capability.figure("timing_relative"), -B))
-    if evidence.scale_relative > 0.0:
-        rows.append(
-            type_a(
-                "K", Message("Fitted scale factor"), "1", evidence.scale_relative, -B, math.inf, estimate=1.0
-            )
-        )
+    if evidence.scale.relative > 0.0:
+        rows.append(evidence.scale.row(B))
     return combine(rows)
 
 
@@ -76,6 +77,19 @@ def _resolution_row(evidence: ZeroOffsetEvidence) -> BudgetRow:
         "deg" if resolution.of_angle else "deg/s",
         0.5 * resolution.step,
         math.sqrt(float(factors @ factors)) if resolution.dithered else float(factors.sum()),
+        "data",
+    )
+
+
+def _vertical_row(evidence: ZeroOffsetEvidence) -> BudgetRow:
+    """7.2.2 turns about the vertical alone, so what the axis feels of the vertical rate by its own
+    misalignment stays. By the standard's formula it belongs to the value; it is stated, not taken off."""
+    return from_half_width(
+        "λ",
+        Message("Misalignment of the axis, through the Earth's vertical rate"),
+        "rad",
+        evidence.leans,
+        abs(float(earth_rate_vector(evidence.latitude_deg)[2])),
         "data",
     )
 

@@ -78,6 +78,11 @@ class Evidence:
             axis: find_resolution(
                 [take.output.readings[axis] for take in rest],
                 [take.output.readings[axis] for take in moving],
+                [
+                    take.output.readings[axis]
+                    for take in takes
+                    if not take.at_rest and take.segment.axis not in (axis, None)
+                ],
                 of_angle=source != "rate",
             )
             for axis in AXES

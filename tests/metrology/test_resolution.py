@@ -55,6 +55,13 @@ def test_one_code_at_rest_takes_the_step_from_the_rates() -> None:
     assert not found.dithered
 
 
+def test_one_code_at_rest_takes_the_step_from_turns_about_the_other_axes() -> None:
+    across = [np.full(100, code * STEP) for code in (3.0, -2.0, 1.0)]
+    found = find_resolution([np.zeros(100)] * 4, [np.full(100, 100.0 + STEP)], across)
+    assert found.step == pytest.approx(STEP)
+    assert not found.dithered
+
+
 def test_the_difference_between_rates_is_no_step() -> None:
     rates = [np.full(100, rate) for rate in (-300.0, -10.0, 10.0, 300.0)]
     assert find_resolution([np.zeros(100)] * 2, rates).step == 0.0

@@ -49,16 +49,19 @@ class Resolution:
         return np.asarray(self.mean_factors(durations_s, samples) ** 2 * self.step**2 / 12.0)
 
 
-def find_resolution(rest: Sequence[Array], moving: Sequence[Array], *, of_angle: bool = False) -> Resolution:
+def find_resolution(
+    rest: Sequence[Array], moving: Sequence[Array], across: Sequence[Array] = (), *, of_angle: bool = False
+) -> Resolution:
     """From one output's recordings at rest and in motion.
 
-    The smallest step between values of all recordings at rest together, which may each show one code alone,
-    or within one in motion.
+    The smallest step between values of all recordings at rest and of turns about the other axes (``across``)
+    together, which may each show one code alone, or within one in motion.
     """
     at_rest = [column[:LOOKED_AT] for column in rest]
     in_motion = [column[:LOOKED_AT] for column in moving]
     spread = max((float(np.ptp(column)) for column in at_rest), default=0.0)
-    pooled = [np.concatenate(at_rest)] if at_rest else []
+    together = [*at_rest, *(column[:LOOKED_AT] for column in across)]
+    pooled = [np.concatenate(together)] if at_rest else []
     steps = [smallest_step(column, _OF_THE_SPREAD * spread) for column in pooled]
     steps += [smallest_step(column) for column in in_motion]
     step = min((found for found in steps if found > 0.0), default=0.0)

@@ -76,7 +76,7 @@ def _of_quantity(budget: QuantityBudget, writer: ResultWriter) -> Iterator[Block
     if check is not None:
         divided = scale.unit if scale.unit == _MILLIONTH else joined("(", scale.unit, ")")
         start = joined(symbol(budget.letter, budget.index), " / ", divided, ": ")
-        said = _check_text(check, scale.factor, writer)
+        said = _check_text(budget.uncertainty, check, scale.factor, writer)
         yield Paragraph(Label(joined(start, said.main), said.second), size=7.0, together=True)
 
 
@@ -165,7 +165,7 @@ def _dof(dof: float) -> str:
     return "∞" if dof > _NO_DIFFERENCE else format_grouped(f"{dof:.0f}")
 
 
-def _check_text(check: MonteCarloCheck, factor: float, writer: ResultWriter) -> Label:
+def _check_text(found: Uncertainty, check: MonteCarloCheck, factor: float, writer: ResultWriter) -> Label:
     """Trials, mean, u, both intervals and the verdict of clause 8, to one digit beyond δ."""
     delta = check.tolerance * factor
     decimals = 1 - math.floor(math.log10(delta)) if delta > 0.0 else 6
@@ -177,10 +177,13 @@ def _check_text(check: MonteCarloCheck, factor: float, writer: ResultWriter) -> 
         return f"[{text(ends[0])}, {text(ends[1])}]"
 
     verdict = wording.CHECK_VALIDATED if check.validated else wording.CHECK_NOT_VALIDATED
+    if found.from_monte_carlo:
+        verdict = wording.CHECK_WIDENED
     values = {
         "trials": format_grouped(str(check.trials)),
         "mean": text(check.mean),
-        "u": text(check.standard),
+        "u": "–" if check.standard is None else text(check.standard),
+        "gum": text(found.gum_expanded),
         "symmetric": interval(check.symmetric),
         "shortest": interval(check.shortest),
         "delta": significant(delta) if delta > 0.0 else DASH,

@@ -48,6 +48,7 @@ from ahrs_lab.certificates.result_tables import (
     zero_offset_table,
 )
 from ahrs_lab.certificates.richtext import RichText, Run, joined, markup, plain, symbol
+from ahrs_lab.certificates.uncertainty_statement import run_on, uncertainty_statement, widened_quantities
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.best_capability import reported
@@ -83,7 +84,16 @@ def certificate_content(
     _check_units(result, job)
     shown = reported(result, job.best_capability)
     conformity = assess(shown.result, asked.limits, asked.rule)
-    writer = ResultWriter(language, job.rounding, asked.units, shown.raised, str(_raised_mark(result)))
+    mark = _raised_mark(result)
+    writer = ResultWriter(
+        language,
+        job.rounding,
+        asked.units,
+        shown.raised,
+        raised_mark=str(mark),
+        widened=widened_quantities(shown.result),
+        widened_mark=str(mark + 1 if shown.raised else mark),
+    )
     return Document(
         frame=document_frame(result, job, language, wording.TITLE),
         front=front_fields(result, job, language),
@@ -94,7 +104,7 @@ def certificate_content(
                 *_results(shown.result, writer),
                 *_footnotes(result, writer),
                 *(conformity_blocks(conformity, shown.result, writer) if conformity else ()),
-                *_methods(result, job, mismatches, language),
+                *_methods(result, shown.result, job, mismatches, language),
             ),
             _annex(result, writer),
             *((budget_annex(result, writer),) if job.budget_annex else ()),
@@ -329,6 +339,8 @@ def _footnotes(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, 
         notes.append(wording.NOTE_ANNEX_A)
     if writer.raised:
         notes.append(conformity_wording.RAISED)
+    if writer.widened:
+        notes.append(wording.NOTE_MONTE_CARLO)
     return tuple(
         Paragraph(writer.words(note), str(mark), size=7.0, together=True, kept=mark < len(notes))
         for mark, note in enumerate(notes, 1)
@@ -339,11 +351,16 @@ def _footnotes(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, 
 
 
 def _methods(
-    result: CalibrationResult, job: JobSheet, mismatches: tuple[Message, ...], language: CertificateLanguage
+    result: CalibrationResult,
+    shown: CalibrationResult,
+    job: JobSheet,
+    mismatches: tuple[Message, ...],
+    language: CertificateLanguage,
 ) -> tuple[Block, ...]:
     blocks: list[Block] = [Heading(label(wording.UNCERTAINTY, language))]
     blocks += [
-        Paragraph(label(words, language), together=True) for words in _uncertainty_statement(result, job)
+        Paragraph(label(words, language), together=True)
+        for words in uncertainty_statement(result, shown, job, demonstration=is_demonstration(result, job))
     ]
     blocks += [
         Heading(label(wording.CONDITIONS, language)),
@@ -361,7 +378,7 @@ def _methods(
         use.append(wording.USE_AS_DELIVERED)
     blocks += [
         Heading(label(wording.USE, language)),
-        Paragraph(_with_mark(label(_run_on(use), language), "4"), together=True),
+        Paragraph(_with_mark(label(run_on(use), language), "4"), together=True),
     ]
     remarks = [_message(message, language) for message in mismatches]
     remarks += [same(note) for note in job.notes]
@@ -395,51 +412,6 @@ def _with_mark(text: Label, mark: str) -> Label:
 
 def _message(message: Message, language: CertificateLanguage) -> Label:
     return both(message.text("zh"), message.text("en"), language)
-
-
-def _uncertainty_statement(result: CalibrationResult, job: JobSheet) -> tuple[Words, ...]:
-    """Clause 8 j): method, k, probability, what U of B covers, traceability."""
-    statements: list[Words] = []
-    methods = methods_of(result)
-    if "gum" in methods:
-        statements.append(_noted(wording.BY_GUM, 5))
-    if "annex-a" in methods:
-        statements.append(_noted(wording.BY_ANNEX_A, 6 if "gum" in methods else 5))
-    if job.rounding == "up":
-        statements.append(wording.ROUNDED_UP)
-    if result.zero_offset:
-        meaning = [wording.MEANING_OF_B]
-        known = [one for one in result.zero_offset.values() if one.repeatability_dps is not None]
-        if any(not one.repeatability_cycles for one in known):
-            meaning.append(wording.REPEATABILITY_BY_ALLAN)
-        meaning += [
-            wording.REPEATABILITY_BY_CYCLES.filled(count=count)
-            for count in sorted({one.repeatability_cycles for one in known} - {0})
-        ]
-        statements.append(_run_on(meaning))
-    return (*statements, *_traceability(result, job))
-
-
-def _run_on(sentences: Iterable[Words]) -> Words:
-    """One paragraph of several."""
-    said = tuple(sentences)
-    return Words("".join(one.zh for one in said), " ".join(one.en for one in said))
-
-
-def _traceability(result: CalibrationResult, job: JobSheet) -> tuple[Words, ...]:
-    """Only what the standards used bear out."""
-    if is_demonstration(result, job):
-        return (wording.DEMONSTRATION_NOT_TRACEABLE,)
-    if clause6_violations(job.standards, on_date=job.calibrated):
-        return (wording.NOT_TRACEABLE,)
-    bodies = list(dict.fromkeys(one.traceability for one in job.standards if one.traceability))
-    if not bodies:
-        return (wording.TRACEABILITY,)
-    return (wording.TRACEABILITY, wording.TRACED_BY.filled(bodies=", ".join(bodies)))
-
-
-def _noted(words: Words, mark: int) -> Words:
-    return Words(f"{words.zh}^{{{mark}}}", f"{words.en}^{{{mark}}}")
 
 
 def _warnings(result: CalibrationResult, language: CertificateLanguage) -> list[Label]:
@@ -589,7 +561,7 @@ def _budget_note(marks: Mapping[str, str], language: CertificateLanguage) -> Par
     if marks:
         named = "; ".join(f"^{{{mark})}} {number}" for number, mark in marks.items())
         note.append(wording.BUDGET_CERTIFICATES.filled(numbers=named))
-    return Paragraph(label(_run_on(note), language), size=7.0, together=True, kept=True)
+    return Paragraph(label(run_on(note), language), size=7.0, together=True, kept=True)
 
 
 def _budget_heading(kind: Words, writer: ResultWriter) -> Heading:

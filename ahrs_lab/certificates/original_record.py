@@ -39,7 +39,9 @@ from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet
 from ahrs_lab.certificates.layout import write_document
 from ahrs_lab.certificates.result_tables import AXES, DASH, ResultWriter, unit_text
 from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol, text_of
+from ahrs_lab.certificates.uncertainty_statement import symbols_of
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.budgets import budgets_of
 from ahrs_lab.metrology.result import (
     MISALIGNMENT_KEYS,
     AxisName,
@@ -344,6 +346,11 @@ def _full_results(result: CalibrationResult, writer: ResultWriter) -> Iterator[B
     rows = tuple(_full_rows(result))
     yield Heading(writer.words(wording.FULL_RESULTS))
     yield Table(columns, rows, size=8.0)
+    widened = [one for one in budgets_of(result) if one.letter != "F0" and one.uncertainty.from_monte_carlo]
+    if widened:
+        keys, note = symbols_of(widened), wording.NOTE_MONTE_CARLO
+        said = Words(f"{keys}：{note.zh}", f"{keys}: {note.en}")
+        yield Paragraph(writer.words(said), size=7.0)
 
 
 def _full_rows(result: CalibrationResult) -> Iterator[tuple[Label, ...]]:

@@ -83,7 +83,8 @@ def contribution(value: float, combined: float) -> str:
 class ResultWriter:
     """How results are written: the languages, the rounding and the units of the job.
 
-    The quantities in ``raised`` ("K_x") carry the footnote ``raised_mark``.
+    The quantities in ``raised`` ("K_x") carry the footnote ``raised_mark``, those in ``widened``
+    ``widened_mark``.
     """
 
     language: CertificateLanguage
@@ -91,6 +92,8 @@ class ResultWriter:
     units: ResultUnits = field(default_factory=ResultUnits)
     raised: tuple[str, ...] = ()
     raised_mark: str = ""
+    widened: tuple[str, ...] = ()
+    widened_mark: str = ""
 
     def words(self, words: Words) -> Label:
         """Our own wording."""
@@ -104,10 +107,15 @@ class ResultWriter:
         return same(format_grouped(rounded.value)), same(format_grouped(rounded.expanded))
 
     def quantity(self, words: Words, letter: str, index: str) -> Label:
-        """Annex C's words with the symbol; with the footnote where U was raised."""
+        """Annex C's words with the symbol; with the footnote where U was raised or is from the trials."""
         name = self.words(words)
-        mark = (Run(self.raised_mark, "sup"),) if f"{letter}_{index}" in self.raised else ()
+        key = f"{letter}_{index}"
+        mark = (Run(self.raised_mark, "sup"),) if key in self.raised else self.widened_of(key)
         return Label(joined(name.main, mark, "  ", symbol(letter, index)), name.second)
+
+    def widened_of(self, key: str) -> RichText:
+        """The footnote's mark where U of ``key`` is from the trials."""
+        return (Run(self.widened_mark, "sup"),) if key in self.widened else ()
 
     def missing(self, name: Label, columns: int) -> tuple[Label, ...]:
         """The row of a quantity that was not calibrated."""

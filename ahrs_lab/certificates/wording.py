@@ -103,6 +103,29 @@ BY_GUM = Words(
     "coverage "
     "probability is about 95 %. U has two significant digits, values are rounded to the same place.",
 )
+FROM_MONTE_CARLO = Words(
+    "例外：{keys} 的 GUM 区间未通过蒙特卡洛法的验证（JCGM 101 第 8 章）且偏短；其 U 取以校准值为中心、覆盖试"
+    "验的 95 % 对称包含区间的半宽，k = U/u_{{c}}。",
+    "Exception: {keys}, whose GUM interval is not validated by Monte Carlo (JCGM 101, clause 8) and too "
+    "short: U is the half-width about the value that covers the trials' symmetric 95 % coverage interval, "
+    "k = U/u_{{c}}.",
+)
+LONGER_THAN_MONTE_CARLO = Words(
+    "例外：{keys} 的 GUM 区间未通过蒙特卡洛法的验证（JCGM 101 第 8 章）而偏长；U 仍按 GUM 给出，其包含概率"
+    "大于 95 %。",
+    "Exception: {keys}, whose GUM interval is not validated by Monte Carlo (JCGM 101, clause 8) and too "
+    "long: U is the GUM's, and its coverage probability is more than 95 %.",
+)
+NOT_VALIDATED = Words(
+    "例外：{keys} 的 GUM 区间未通过蒙特卡洛法的验证（JCGM 101 第 8 章），其包含概率可能小于 95 %；请重"
+    "新评定。",
+    "Exception: {keys}, whose GUM interval is not validated by Monte Carlo (JCGM 101, clause 8): its "
+    "coverage probability may be less than 95 %; evaluate the recording again.",
+)
+NOTE_MONTE_CARLO = Words(
+    "U 取自蒙特卡洛法的试验（JCGM 101 第 8.3 条），因 GUM 的 U 未通过验证且偏短。",
+    "U is from the Monte Carlo trials (JCGM 101, 8.3), because the GUM's was not validated and too short.",
+)
 BY_ANNEX_A = Words(
     "测量不确定度按 JJF 1536—2015 附录 A 评定，包含因子 k = 2，包含概率约为 95 %。结果修约到与 U 相同的末"
     "位，U 取两位有效数字。",
@@ -130,6 +153,17 @@ TRACEABILITY = Words(
     "测量结果通过上列测量标准溯源；不确定度汇总中标 * 的分量为假定值，无证书支持。",
     "Results are traceable through the measurement standards listed above; contributions marked * in the "
     "uncertainty summary are assumed and not supported by a certificate.",
+)
+ASSUMED_SOME = Words(
+    "{keys} 的 B 类方差大部分（超过 50 %）来自假定值，其溯源性未得到证明。",
+    "Of {keys} most of the type B variance (more than 50 %) is from assumed figures: traceability of those "
+    "is not shown.",
+)
+ASSUMED_ALL = Words(
+    "测量结果的溯源性未得到证明：所有结果的 B 类方差大部分（超过 50 %）来自假定值（不确定度汇总中标 *），"
+    "无证书支持。",
+    "Traceability of the results is not shown: of every one most of the type B variance (more than 50 %) is "
+    "from assumed figures (marked * in the uncertainty summary), which no certificate supports.",
 )
 TRACED_BY = Words("测量标准的溯源机构：{bodies}。", "The standards are traced through {bodies}.")
 NOT_TRACEABLE = Words(
@@ -293,6 +327,11 @@ CHECK = Words(
 CHECK_VALIDATED = Words("±U 经第 8 章验证（δ = {delta}）。", "± U is validated by clause 8 (δ = {delta}).")
 CHECK_NOT_VALIDATED = Words(
     "±U 未通过第 8 章的验证（δ = {delta}）。", "± U is not validated by clause 8 (δ = {delta})."
+)
+CHECK_WIDENED = Words(
+    "GUM 的 ±U（{gum}）未通过第 8 章的验证（δ = {delta}）且偏短；U 取覆盖对称区间的半宽。",
+    "The GUM's ± U ({gum}) is not validated by clause 8 (δ = {delta}) and too short; U is the half-width "
+    "that covers the symmetric interval.",
 )
 
 # Original record (原始记录) and plots

@@ -47,6 +47,7 @@ COLUMNS = {
     "shortest_high": "最短区间上限",
     "tolerance": "容差δ",
     "validated": "是否得到验证",
+    "from_monte_carlo": "U取自蒙特卡洛法",
 }
 _CODES = {
     "source": "来源",
@@ -66,6 +67,8 @@ _CODES = {
     "yes": "是",
     "no": "否",
 }
+_NONE = "–"
+"""For a number that does not exist, not one that is left out."""
 _CALCULATES = "=+-@＝＋－＠"
 _Value = str | float | int | None
 
@@ -74,7 +77,7 @@ def budget_csv(result: CalibrationResult) -> str:
     """A line for each source of each quantity, then its correlations, its sum and its Monte Carlo check.
 
     Contribution, sum and intervals are in the quantity's unit, which stands in the sum line; u of a source is
-    in the source's own.
+    in the source's own. U in the line of a check is the GUM's, which was tested.
     """
     text = io.StringIO(newline="")
     writer = csv.writer(text)
@@ -111,6 +114,7 @@ def _lines(budget: QuantityBudget) -> Iterator[dict[str, _Value]]:
         "method": _code(found.method),
         "k": found.coverage_factor,
         "U": found.expanded,
+        "from_monte_carlo": _code("yes" if found.from_monte_carlo else "no"),
     }
     if found.monte_carlo is not None:
         yield {**head, "unit": _text(budget.unit), **_monte_carlo(found.monte_carlo)}
@@ -150,7 +154,8 @@ def _monte_carlo(check: MonteCarloCheck) -> dict[str, _Value]:
     return {
         "line": _code("monte-carlo"),
         "estimate": check.mean,
-        "u": check.standard,
+        "u": _NONE if check.standard is None else check.standard,
+        "U": check.gum_expanded,
         "trials": check.trials,
         "seed": check.seed,
         "symmetric_low": check.symmetric[0],

@@ -62,15 +62,17 @@ class Correlation:
 class MonteCarloCheck:
     """Propagation of distributions (JCGM 101) of one quantity, and what it says of the GUM interval.
 
-    Intervals hold 95 %; all in the quantity's unit. ``tolerance`` is δ of 7.9.2 for ``digits`` significant
-    digits of u; ``validated``: both ends of value ± U lie within δ of the symmetric interval's (clause 8).
+    Intervals hold 95 %; all in the quantity's unit. ``standard`` is None where the distribution has none: a
+    row is a t of two or fewer degrees of freedom. ``tolerance`` is δ of 7.9.2 for ``digits`` significant
+    digits of the GUM's u; ``validated``: both ends of value ± ``gum_expanded`` lie within δ of the symmetric
+    interval's (clause 8). ``gum_expanded`` is None in results of before it was kept: then it is U.
     ``counts`` of the trials in equal bins from ``bins[0]`` to ``bins[1]`` are for looking at.
     """
 
     trials: int
     seed: int
     mean: float
-    standard: float
+    standard: float | None
     symmetric: tuple[float, float]
     shortest: tuple[float, float]
     digits: int
@@ -78,11 +80,15 @@ class MonteCarloCheck:
     validated: bool
     bins: tuple[float, float]
     counts: tuple[int, ...]
+    gum_expanded: float | None = None
 
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """Combined and expanded uncertainty (JCGM 100): U = k·u_c at about 95 %."""
+    """Combined and expanded uncertainty (JCGM 100): U = k·u_c at about 95 %.
+
+    ``from_monte_carlo``: the GUM's U was too short by the trials, and U covers their symmetric interval.
+    """
 
     standard: float
     expanded: float
@@ -92,6 +98,13 @@ class Uncertainty:
     rows: tuple[BudgetRow, ...] = ()
     correlations: tuple[Correlation, ...] = ()
     monte_carlo: MonteCarloCheck | None = None
+    from_monte_carlo: bool = False
+
+    @property
+    def gum_expanded(self) -> float:
+        """U of the budget itself, which the Monte Carlo check tests."""
+        check = self.monte_carlo
+        return self.expanded if check is None or check.gum_expanded is None else check.gum_expanded
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ def uncertainty_json(found: Uncertainty) -> dict[str, Any]:
         "budget": [_row(row) for row in found.rows],
         "correlations": [asdict(entry) for entry in found.correlations],
         "monte_carlo": None if found.monte_carlo is None else _monte_carlo(found.monte_carlo),
+        "from_monte_carlo": found.from_monte_carlo,
     }
 
 
@@ -46,6 +47,7 @@ def read_uncertainty(reader: JsonReader) -> Uncertainty:
         rows=rows,
         correlations=_read_correlations(reader, len(rows)),
         monte_carlo=_read_monte_carlo(reader.object("monte_carlo")) if reader.has("monte_carlo") else None,
+        from_monte_carlo=reader.has("from_monte_carlo") and reader.value("from_monte_carlo") is True,
     )
 
 
@@ -78,6 +80,7 @@ def _monte_carlo(found: MonteCarloCheck) -> dict[str, Any]:
         "tolerance": found.tolerance,
         "validated": found.validated,
         "histogram": {"from": found.bins[0], "to": found.bins[1], "counts": list(found.counts)},
+        "gum_expanded_uncertainty": found.gum_expanded,
     }
 
 
@@ -87,7 +90,7 @@ def _read_monte_carlo(reader: JsonReader) -> MonteCarloCheck:
         trials=reader.whole("trials"),
         seed=reader.whole("seed"),
         mean=reader.number("mean"),
-        standard=reader.number("standard_uncertainty"),
+        standard=reader.optional_number("standard_uncertainty"),
         symmetric=_interval(reader, "symmetric_interval"),
         shortest=_interval(reader, "shortest_interval"),
         digits=reader.whole("significant_digits"),
@@ -95,6 +98,7 @@ def _read_monte_carlo(reader: JsonReader) -> MonteCarloCheck:
         validated=reader.value("validated") is True,
         bins=(histogram.number("from"), histogram.number("to")),
         counts=tuple(int(count) for count in histogram.numbers("counts")),
+        gum_expanded=reader.optional_number("gum_expanded_uncertainty"),
     )
 
 

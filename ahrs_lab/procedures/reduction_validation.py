@@ -37,15 +37,26 @@ def _said(symbol: str, value: float, uncertainty: Uncertainty) -> Message | None
     check = uncertainty.monte_carlo
     if check is None or check.validated:
         return None
+    numbers = {
+        "symbol": symbol,
+        "gum_low": f"{-uncertainty.gum_expanded:+.3g}",
+        "gum_high": f"{uncertainty.gum_expanded:+.3g}",
+        "trials": check.trials,
+        "low": f"{check.symmetric[0] - value:+.3g}",
+        "high": f"{check.symmetric[1] - value:+.3g}",
+        "tolerance": f"{check.tolerance:.1g}",
+    }
+    if uncertainty.from_monte_carlo:
+        return Message(
+            "{symbol}: the 95 % interval of the GUM budget, value {gum_low} to {gum_high}, is not that of "
+            "{trials} Monte Carlo trials, value {low} to {high}, within {tolerance} (JCGM 101, clause 8): U "
+            "was raised to {expanded}, which covers the trials' interval.",
+            expanded=f"{uncertainty.expanded:.3g}",
+            **numbers,
+        )
     return Message(
         "{symbol}: the 95 % interval of the GUM budget, value {gum_low} to {gum_high}, is not that of "
-        "{trials} Monte Carlo trials, value {low} to {high}, within {tolerance} (JCGM 101, clause 8): read U "
-        "with that in mind.",
-        symbol=symbol,
-        gum_low=f"{-uncertainty.expanded:+.3g}",
-        gum_high=f"{uncertainty.expanded:+.3g}",
-        trials=check.trials,
-        low=f"{check.symmetric[0] - value:+.3g}",
-        high=f"{check.symmetric[1] - value:+.3g}",
-        tolerance=f"{check.tolerance:.1g}",
+        "{trials} Monte Carlo trials, value {low} to {high}, within {tolerance} (JCGM 101, clause 8): U "
+        "stays the larger one of the GUM and holds more than 95 %.",
+        **numbers,
     )

@@ -387,6 +387,10 @@
         <translation>GUM</translation>
     </message>
     <message>
+        <source>U from Monte Carlo</source>
+        <translation>U 取自蒙特卡洛法</translation>
+    </message>
+    <message>
         <source>reported: U = {expanded} (CMC)</source>
         <translation>报告值：U = {expanded}（CMC）</translation>
     </message>
@@ -1648,6 +1652,10 @@
     <message>
         <source>{trials} trials, u = {u}: ± U is not validated (JCGM 101, clause 8, δ = {tolerance}).</source>
         <translation>{trials} 次试验，u = {u}：± U 未通过验证（JCGM 101 第 8 章，δ = {tolerance}）。</translation>
+    </message>
+    <message>
+        <source>± U of the GUM is too short: the U reported covers the symmetric interval.</source>
+        <translation>GUM 的 ±U 偏短：报告的 U 覆盖对称区间。</translation>
     </message>
     <message>
         <source>An end of ± U lies more than δ from the symmetric interval&apos;s.</source>

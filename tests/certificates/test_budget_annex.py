@@ -122,6 +122,22 @@ def test_the_monte_carlo_line_says_whether_u_is_validated(full: CalibrationResul
     assert "not validated" in said[1]
 
 
+def test_a_u_from_the_trials_and_a_missing_one_are_said(full: CalibrationResult) -> None:
+    offset = full.zero_offset["y"]
+    check = offset.uncertainty.monte_carlo
+    assert check is not None
+    check = replace(check, standard=None, gum_expanded=offset.uncertainty.expanded)
+    stated = replace(offset.uncertainty, expanded=9.8e-5, monte_carlo=check, from_monte_carlo=True)
+    found = replace(full, zero_offset={"y": replace(offset, uncertainty=stated)})
+    blocks = budget_annex(found, ResultWriter("en", "half-even"))
+    said = next(text_of(block.text.main) for block in blocks if isinstance(block, Paragraph))
+    assert "u = –;" in said
+    assert said.endswith(
+        "The GUM's ± U (0.368) is not validated by clause 8 (δ = 0.018) and too short; "
+        "U is the half-width that covers the symmetric interval."
+    )
+
+
 def test_correlations_are_mentioned_where_there_are_any(full: CalibrationResult) -> None:
     rows = budget().rows
     linked = combine(rows, correlations=[Correlation(0, 3, -0.5)])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import csv
+import io
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -100,8 +101,22 @@ def test_every_number_comes_back_to_the_last_bit(tmp_path: Path) -> None:
     assert (float(check["symmetric_low"]), float(check["symmetric_high"])) == CHECK.symmetric
     assert (float(check["shortest_low"]), float(check["shortest_high"])) == CHECK.shortest
     assert check["validated"].split(" ")[0] == "no"
+    assert total["from_monte_carlo"].split(" ")[0] == "no"
     assert math.isinf(float(found[5]["dof"]))
     assert found[5]["estimate"] == ""
+
+
+def test_a_u_that_does_not_exist_is_a_dash_and_u_from_the_trials_is_said() -> None:
+    found = result()
+    scale = found.scale_factor["x"]
+    check = replace(CHECK, standard=None, gum_expanded=1e-5)
+    stated = replace(scale.uncertainty, expanded=2e-5, monte_carlo=check, from_monte_carlo=True)
+    found = replace(found, scale_factor={"x": replace(scale, uncertainty=stated)})
+    rows = [row for row in csv.DictReader(io.StringIO(budget_csv(found))) if row["quantity 被测量"] == "K_x"]
+    total, checked = rows[-2:]
+    assert total["from_monte_carlo U取自蒙特卡洛法"] == "yes 是"
+    assert float(total["U 扩展不确定度"]) == 2e-5
+    assert (checked["u 标准不确定度"], float(checked["U 扩展不确定度"])) == ("–", 1e-5)
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+1", "-cmd", "@SUM(A1)", " =1", "\t=1", "＝1"])

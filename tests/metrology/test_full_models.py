@@ -236,7 +236,7 @@ def test_the_linear_part_draws_a_shared_estimate_once() -> None:
 
 
 def test_digits_are_such_that_the_tolerance_is_a_few_percent_of_u() -> None:
-    assert [meaningful_digits(u) for u in (1.0, 0.0294, 3.0e-5, 9.94, 9.96, 0.2999)] == [2, 2, 1, 1, 2, 1]
+    assert [meaningful_digits(u) for u in (1.0, 0.0294, 3.0e-5, 9.94, 9.96, 0.2999)] == [2, 2, 1, 1, 1, 2]
 
 
 def linear_check(*rows: BudgetRow) -> Uncertainty:
@@ -253,8 +253,23 @@ def test_a_normal_budget_is_validated_and_one_broad_rectangle_is_not() -> None:
     assert good.monte_carlo is not None
     assert bad.monte_carlo is not None
     assert (good.monte_carlo.validated, bad.monte_carlo.validated) == (True, False)
-    # the first-order uncertainty stays the reported one
-    assert bad.expanded == combine([normal, rectangle]).expanded
+    # the first-order U is longer than the trials' interval and stays the reported one
+    assert bad.expanded == bad.gum_expanded == combine([normal, rectangle]).expanded
+    assert not bad.from_monte_carlo
+
+
+def test_a_gum_interval_that_is_too_short_gives_way_to_the_trials() -> None:
+    """Two t of 3 degrees of freedom and one of 1.5: Welch–Satterthwaite's k is too small for their sum."""
+    message = zero_offset_uncertainty(0.0, four_positions(), BENCH).rows[0].source
+    rows = [type_a(name, message, "1", 1.0, 1.0, dof) for name, dof in (("a", 3.0), ("b", 3.0), ("c", 1.5))]
+    gum, found = combine(rows), linear_check(*rows)
+    check = found.monte_carlo
+    assert check is not None
+    assert (check.validated, check.standard, found.from_monte_carlo) == (False, None, True)
+    assert found.expanded == max(-check.symmetric[0], check.symmetric[1]) > gum.expanded
+    assert (found.standard, found.dof) == (gum.standard, gum.dof)
+    assert found.coverage_factor * found.standard == pytest.approx(found.expanded, rel=1e-12)
+    assert found.gum_expanded == check.gum_expanded == gum.expanded
 
 
 def test_a_seed_belongs_to_a_recording_and_a_quantity() -> None:

@@ -21,6 +21,7 @@ from ahrs_lab.metrology.uncertainty.distributions import (
     Trapezoidal,
     triangular,
 )
+from ahrs_lab.metrology.uncertainty.full_model import meaningful_digits
 from ahrs_lab.metrology.uncertainty.monte_carlo import (
     BLOCK,
     numerical_tolerance,
@@ -151,7 +152,7 @@ def test_a_model_that_gives_no_number_is_refused() -> None:
     [
         (0.00035, 2, 0.000005),
         (2.0, 1, 0.5),
-        (0.0996, 2, 0.005),
+        (0.0996, 2, 0.0005),
         (0.0994, 2, 0.0005),
         (33.0, 2, 0.5),
         (0.0, 1, 0.0),
@@ -188,10 +189,39 @@ def test_intervals_hold_the_share_of_the_values_that_they_are_asked_for() -> Non
 
 def test_the_check_says_passed_or_not_and_can_be_looked_at() -> None:
     found = propagate([Normal(10.0, 1.0)], first, seed=1, trials=400_000)
-    good, bad = (validate(found, 10.0 - U, 10.0 + U, 2) for U in (1.96, 2.05))
+    good, bad = (validate(found, 10.0 - U, 10.0 + U, standard=1.0, digits=2) for U in (1.96, 2.05))
     assert (good.validated, bad.validated) == (True, False)
-    assert (good.tolerance, good.digits) in ((0.05, 2), (0.005, 2))
+    assert (good.tolerance, good.digits) == (0.05, 2)
     assert sum(good.counts) == pytest.approx(400_000, rel=1e-3)
     assert good.bins == pytest.approx((6.0, 14.0), abs=0.05)
-    certain = validate(propagate([Normal(1.0, 0.0)], first, seed=1, trials=BLOCK), 1.0, 1.0, 2)
+    still = propagate([Normal(1.0, 0.0)], first, seed=1, trials=BLOCK)
+    certain = validate(still, 1.0, 1.0, standard=0.0, digits=2)
     assert (certain.validated, certain.counts) == (True, ())
+
+
+@pytest.mark.parametrize("exponent", [-9, -1, 0, 3])
+@pytest.mark.parametrize("mantissa", [1.0, 1.99, 2.95, 2.9999, 3.0, 9.49, 9.5, 9.7, 9.95, 9.96, 9.9999999])
+def test_the_tolerance_is_a_few_percent_of_any_u(mantissa: float, exponent: int) -> None:
+    """From the first digit before rounding: 9.7 is not taken for 1·10¹, whose δ would be half of u."""
+    u = float(f"{mantissa}e{exponent}")
+    assert 0.0166 <= numerical_tolerance(u, meaningful_digits(u)) / u <= 0.1667
+
+
+def test_a_t_without_variance_has_no_standard_uncertainty_but_an_interval() -> None:
+    """ν = 2: t₀.₉₇₅ = 4.303 is found, adaptively, though the trials' own u grows with their number."""
+    found = propagate([StudentT(0.0, 1.0, 2.0)], first, seed=3, tolerance=0.1, digits=2)
+    assert found.stable
+    assert not found.finite
+    assert found.symmetric == pytest.approx((-4.303, 4.303), abs=0.05)
+    check = validate(found, -4.303, 4.303, standard=1.0, digits=2)
+    assert (check.standard, check.tolerance, check.validated) == (None, 0.05, True)
+    assert sum(check.counts) > 0.97 * check.trials
+    assert check.bins == pytest.approx((-8.6, 8.6), abs=0.2)
+
+
+def test_the_tolerance_is_of_the_gums_u_and_not_of_the_trials() -> None:
+    """ν = 2.1 makes the trials' u many times the budget's, and with it δ would let anything pass."""
+    found = propagate([StudentT(0.0, 1.0, 2.1)], first, seed=3, trials=200_000)
+    assert found.standard > 2.0
+    check = validate(found, -3.9, 3.9, standard=1.0, digits=2)
+    assert (check.tolerance, check.validated) == (0.05, False)

@@ -12,6 +12,7 @@ import pytest
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.json_reader import JsonReader
 from ahrs_lab.metrology.result import (
     BudgetRow,
     CalibrationResult,
@@ -25,6 +26,7 @@ from ahrs_lab.metrology.result import (
     ZeroOffsetResult,
 )
 from ahrs_lab.metrology.result_json import from_json, from_json_text, to_json, to_json_text
+from ahrs_lab.metrology.uncertainty_json import read_uncertainty, uncertainty_json
 
 ROWS = (
     BudgetRow(
@@ -261,3 +263,15 @@ def test_a_sentence_can_do_nothing_but_show_its_values(message: object) -> None:
 def test_what_is_no_result_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         from_json_text(text)
+
+
+def test_a_u_from_the_trials_and_one_without_variance_survive_json() -> None:
+    assert STATED.monte_carlo is not None
+    check = replace(STATED.monte_carlo, standard=None, gum_expanded=1.5e-4)
+    found = replace(STATED, monte_carlo=check, from_monte_carlo=True)
+    data = json.loads(json.dumps(uncertainty_json(found), allow_nan=False))
+    assert data["monte_carlo"]["standard_uncertainty"] is None
+    assert read_uncertainty(JsonReader(data)) == found
+    del data["from_monte_carlo"], data["monte_carlo"]["gum_expanded_uncertainty"]  # of an earlier release
+    before = read_uncertainty(JsonReader(data))
+    assert (before.from_monte_carlo, before.gum_expanded) == (False, before.expanded)

@@ -59,14 +59,29 @@ def test_a_recording_has_one_result_whenever_it_is_evaluated(sample: Recording) 
     assert from_json(to_json(first)) == first
 
 
-def test_trials_can_be_left_out_or_fixed_and_change_nothing_else() -> None:
+def test_trials_can_be_left_out_or_fixed_and_leave_the_budget_as_it_is() -> None:
     recording = short()
     without, some = (uncertainties(reduce_recording(recording, trials=trials)) for trials in (0, TRIALS))
     for symbol, stated in some.items():
         assert without[symbol].monte_carlo is None
         assert stated.monte_carlo is not None
         assert stated.monte_carlo.trials == TRIALS
-        assert (stated.standard, stated.expanded) == (without[symbol].standard, without[symbol].expanded)
+        assert (stated.standard, stated.gum_expanded) == (without[symbol].standard, without[symbol].expanded)
+        assert (stated.expanded > stated.gum_expanded) == stated.from_monte_carlo
+
+
+def test_u_covers_the_trials_where_the_budget_is_too_short_and_the_warning_says_so() -> None:
+    """Both leans of L_yx move it in the second order too, which a first-order U does not hold."""
+    result = reduce_recording(short())
+    angle = result.misalignment["yx"]
+    stated, check = angle.uncertainty, angle.uncertainty.monte_carlo
+    assert check is not None
+    assert (check.validated, stated.from_monte_carlo) == (False, True)
+    assert stated.expanded == max(angle.L - check.symmetric[0], check.symmetric[1] - angle.L)
+    assert stated.coverage_factor == pytest.approx(stated.expanded / stated.standard) != 1.96
+    (said,) = [w.what.text() for w in result.warnings if w.what.text().startswith("L_yx: the 95 %")]
+    assert f"U was raised to {stated.expanded:.3g}, which covers the trials' interval" in said
+    assert f"{-stated.gum_expanded:+.3g} to {stated.gum_expanded:+.3g}" in said
 
 
 def test_annex_a_is_not_checked() -> None:
@@ -102,3 +117,5 @@ def test_what_is_not_validated_is_said_with_both_intervals() -> None:
     for number in (stated.expanded, -stated.expanded, low - B, high - B):
         assert f"{number:+.3g}" in said.text()
         assert f"{number:+.3g}" in said.text("zh")
+    assert said.text().endswith("U stays the larger one of the GUM and holds more than 95 %.")
+    assert not stated.from_monte_carlo

@@ -10,11 +10,12 @@ import hashlib
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ahrs_lab.metrology.result import BudgetRow, Uncertainty
+from ahrs_lab.metrology.result import BudgetRow, MonteCarloCheck, Uncertainty
 from ahrs_lab.metrology.uncertainty.distributions import (
     ArcSine,
     Input,
@@ -23,7 +24,7 @@ from ahrs_lab.metrology.uncertainty.distributions import (
     StudentT,
     triangular,
 )
-from ahrs_lab.metrology.uncertainty.monte_carlo import Model, propagate, validate
+from ahrs_lab.metrology.uncertainty.monte_carlo import Model, numerical_tolerance, propagate, validate
 
 Array = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ def meaningful_digits(standard: float) -> int:
     One digit throughout would let half of u pass where u begins with 1; two throughout would need 3·10⁷
     trials where it begins with 9.
     """
-    return 2 if f"{standard:.1e}"[0] in "12" else 1
+    return 2 if Decimal(repr(standard)).as_tuple().digits[0] in (1, 2) else 1
 
 
 def check_by_monte_carlo(
@@ -80,8 +81,8 @@ def check_by_monte_carlo(
 ) -> Uncertainty:
     """``budget`` with its Monte Carlo check on the model made for it.
 
-    Without trials, without width or without bounds it stays as it is; the first-order U is the reported one
-    in any case.
+    Where the check is not passed and the trials' symmetric interval reaches beyond ± U, U becomes what covers
+    it (8.3): see :func:`_widened`. Without trials, without width or without bounds it stays as it is.
     """
     if settings.trials == 0 or budget.standard == 0.0 or not math.isfinite(value + budget.expanded):
         return budget
@@ -92,11 +93,23 @@ def check_by_monte_carlo(
         seed=settings.seed(quantity),
         trials=settings.trials,
         digits=digits,
+        tolerance=numerical_tolerance(budget.standard, digits),
         most=MOST_TRIALS,
     )
-    return replace(
-        budget, monte_carlo=validate(found, value - budget.expanded, value + budget.expanded, digits)
-    )
+    ends = value - budget.expanded, value + budget.expanded
+    check = validate(found, *ends, standard=budget.standard, digits=digits)
+    # the U that was tested, not half a difference that has lost its last digits beside a large value
+    check = replace(check, gum_expanded=budget.expanded)
+    return _widened(replace(budget, monte_carlo=check), value, check)
+
+
+def _widened(budget: Uncertainty, value: float, check: MonteCarloCheck) -> Uncertainty:
+    """U from the trials where the GUM's is not validated and too short: half-width about the value that
+    covers the symmetric interval, k = U/u_c. A longer U of the GUM stays: it holds more than 95 %."""
+    reach = max(value - check.symmetric[0], check.symmetric[1] - value)
+    if check.validated or reach <= budget.expanded:
+        return budget
+    return replace(budget, expanded=reach, coverage_factor=reach / budget.standard, from_monte_carlo=True)
 
 
 def deviation(row: BudgetRow, size: float = 1.0) -> Input:

@@ -11,13 +11,14 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from decimal import Decimal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.metrology.result import MonteCarloCheck
-from ahrs_lab.metrology.uncertainty.distributions import Input
+from ahrs_lab.metrology.uncertainty.distributions import Input, Joint, StudentT
 
 Array = NDArray[np.float64]
 Model = Callable[[Array], Array]
@@ -34,6 +35,8 @@ THREADS = 2
 _AHEAD = 4
 """Blocks begun before it is known whether they are needed."""
 _BINS, _BINS_REACH = 60, 4.0
+_NO_VARIANCE = 2.0
+"""Degrees of freedom up to which a t has no variance."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,8 @@ class Propagated:
     """What the trials say of the output quantity. ``values``, shape (trials,), in ascending order.
 
     ``stable``: the adaptive procedure ended by itself, not by its limit; True for a fixed number of trials.
+    ``finite``: the output has a standard uncertainty. Without one ``standard`` is that of these trials alone
+    and grows with their number.
     """
 
     seed: int
@@ -50,6 +55,7 @@ class Propagated:
     symmetric: tuple[float, float]
     shortest: tuple[float, float]
     stable: bool
+    finite: bool = True
 
     @property
     def trials(self) -> int:
@@ -63,6 +69,7 @@ def propagate(
     seed: int,
     trials: int | None = None,
     digits: int = 2,
+    tolerance: float | None = None,
     most: int = MAXIMAL_TRIALS,
     safety: float = SAFETY,
     probability: float = PROBABILITY,
@@ -71,11 +78,14 @@ def propagate(
     """Mean, standard uncertainty and both coverage intervals of ``model`` (7.6, 7.7).
 
     ``trials`` None: adaptive (7.9.4), until mean, standard uncertainty and both ends of the interval are
-    stable to δ/``safety``, δ for ``digits`` significant digits, or ``most`` trials are made. Raises
-    InputError for a number of trials out of bounds and where the model gives no finite number.
+    stable to δ/``safety``, or ``most`` trials are made. δ is ``tolerance``, else that of ``digits``
+    significant digits of the trials' own u. Where an input is a t of two or fewer degrees of freedom, only
+    the ends have to be stable: mean and u are not. Raises InputError for a number of trials out of bounds and
+    where the model gives no finite number.
     """
     check_trials(most if trials is None else trials)
     size = sum(entry.size for entry in inputs)
+    finite = not any(isinstance(entry, StudentT | Joint) and entry.dof <= _NO_VARIANCE for entry in inputs)
 
     def block(index: int, count: int) -> Array:
         stream = np.random.SeedSequence(seed, spawn_key=(index,))
@@ -88,14 +98,14 @@ def propagate(
         return model(drawn)
 
     total = most if trials is None else trials
-    stop = None if trials is not None else _Stability(digits, safety, probability)
+    stop = None if trials is not None else _Stability(digits, tolerance, safety, probability, finite)
     kept, stable = [], trials is not None
     for values in _in_order(block, total, threads):
         kept.append(values)
         if stop is not None and stop.reached(values):
             stable = True
             break
-    return _summary(np.concatenate(kept), seed, probability, stable)
+    return _summary(np.concatenate(kept), seed, probability, stable, finite)
 
 
 def check_trials(trials: int) -> None:
@@ -131,12 +141,15 @@ def _in_order(block: Callable[[int, int], Array], total: int, threads: int) -> I
 class _Stability:
     """7.9.4 e) to i): the scatter of the blocks' own results says how well their average is known."""
 
-    def __init__(self, digits: int, safety: float, probability: float) -> None:
-        self._digits, self._safety, self._probability = digits, safety, probability
+    def __init__(
+        self, digits: int, tolerance: float | None, safety: float, probability: float, finite: bool
+    ) -> None:
+        self._digits, self._tolerance, self._safety = digits, tolerance, safety
+        self._probability, self._finite = probability, finite
         self._results: list[tuple[float, float, float, float]] = []
 
     def reached(self, values: Array) -> bool:
-        """Whether, with this block, all four results are stable."""
+        """Whether, with this block, all four results are stable; without a finite u the ends alone."""
         low, high = symmetric_interval(np.sort(values), self._probability)
         self._results.append((float(values.mean()), float(values.std(ddof=1)), low, high))
         count = len(self._results)
@@ -144,16 +157,21 @@ class _Stability:
             return False
         results = np.array(self._results)
         scatter = results.std(axis=0, ddof=1) / math.sqrt(count)
-        tolerance = numerical_tolerance(float(np.sqrt(np.mean(results[:, 1] ** 2))), self._digits)
-        return bool(np.all(2.0 * scatter <= tolerance / self._safety))
+        tolerance = self._tolerance
+        if tolerance is None:
+            tolerance = numerical_tolerance(float(np.sqrt(np.mean(results[:, 1] ** 2))), self._digits)
+        judged = scatter if self._finite else scatter[2:]
+        return bool(np.all(2.0 * judged <= tolerance / self._safety))
 
 
 def numerical_tolerance(standard: float, digits: int) -> float:
-    """δ = ½·10^l of u = c·10^l, c a whole number of ``digits`` digits (7.9.2); 0 for u = 0."""
+    """δ = ½·10^l of u = c·10^l, c of ``digits`` digits (7.9.2); 0 for u = 0.
+
+    The first digit is that of u before rounding: 9.7 rounded to 1·10¹ would make δ half of u.
+    """
     if standard == 0.0:
         return 0.0
-    exponent = int(f"{standard:.{digits - 1}e}".partition("e")[2])
-    return 0.5 * 10.0 ** (exponent - digits + 1)
+    return 0.5 * 10.0 ** (Decimal(repr(standard)).adjusted() - digits + 1)
 
 
 def symmetric_interval(ordered: Array, probability: float = PROBABILITY) -> tuple[float, float]:
@@ -171,7 +189,7 @@ def shortest_interval(ordered: Array, probability: float = PROBABILITY) -> tuple
     return float(low[best]), float(high[best])
 
 
-def _summary(values: Array, seed: int, probability: float, stable: bool) -> Propagated:
+def _summary(values: Array, seed: int, probability: float, stable: bool, finite: bool) -> Propagated:
     bad = len(values) - int(np.isfinite(values).sum())
     if bad:
         raise InputError(
@@ -189,12 +207,16 @@ def _summary(values: Array, seed: int, probability: float, stable: bool) -> Prop
         symmetric=symmetric_interval(values, probability),
         shortest=shortest_interval(values, probability),
         stable=stable,
+        finite=finite,
     )
 
 
-def validate(found: Propagated, low: float, high: float, digits: int) -> MonteCarloCheck:
-    """The test of clause 8: whether both ends of the GUM interval lie within δ of the symmetric one's."""
-    tolerance = numerical_tolerance(found.standard, digits)
+def validate(found: Propagated, low: float, high: float, *, standard: float, digits: int) -> MonteCarloCheck:
+    """The test of clause 8: whether both ends of the GUM interval lie within δ of the symmetric one's.
+
+    δ is of the GUM's own ``standard``, which is what the clause tests, never of the trials'.
+    """
+    tolerance = numerical_tolerance(standard, digits)
     off = max(abs(low - found.symmetric[0]), abs(high - found.symmetric[1]))
     rounding = 8.0 * math.ulp(max(abs(low), abs(high)))
     bins, counts = _histogram(found)
@@ -202,7 +224,7 @@ def validate(found: Propagated, low: float, high: float, digits: int) -> MonteCa
         trials=found.trials,
         seed=found.seed,
         mean=found.mean,
-        standard=found.standard,
+        standard=found.standard if found.finite else None,
         symmetric=found.symmetric,
         shortest=found.shortest,
         digits=digits,
@@ -210,13 +232,17 @@ def validate(found: Propagated, low: float, high: float, digits: int) -> MonteCa
         validated=off <= max(tolerance, rounding),
         bins=bins,
         counts=counts,
+        gum_expanded=0.5 * (high - low),
     )
 
 
 def _histogram(found: Propagated) -> tuple[tuple[float, float], tuple[int, ...]]:
-    """Counts over the mean ± 4 u; a t with few degrees of freedom would spread over nothing."""
-    reach = _BINS_REACH * found.standard
-    low, high = found.mean - reach, found.mean + reach
+    """Counts over the mean ± 4 u, without a finite u about twice the symmetric interval; a t with few degrees
+    of freedom would spread over nothing."""
+    middle, reach = found.mean, _BINS_REACH * found.standard
+    if not found.finite:
+        middle, reach = sum(found.symmetric) / 2.0, found.symmetric[1] - found.symmetric[0]
+    low, high = middle - reach, middle + reach
     if not low < high:
         return (low, high), ()
     place = (found.values - low) * (_BINS / (high - low)) + 1.0

@@ -115,7 +115,7 @@ class BudgetView(Translated):
             factor = abs(self._unit.factor)
             self.strip.say(
                 f"{significant(found.expanded * factor)}{label}",
-                f"{significant(before.expanded * factor)}{label}",
+                f"{significant(before.gum_expanded * factor)}{label}",
                 number(found.coverage_factor, 2),
             )
 
@@ -129,6 +129,7 @@ class BudgetView(Translated):
             f"k = {number(found.coverage_factor, 2)}",
             f"ν = {degrees_of_freedom(found.dof)}",
             method,
+            *([self.tr("U from Monte Carlo")] if found.from_monte_carlo else ()),
             *([self._raised(self._reported, unit)] if self._reported is not None else ()),
         )
         return "   ".join(parts)

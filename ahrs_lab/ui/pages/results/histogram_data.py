@@ -32,7 +32,8 @@ class Interval:
 @dataclass(frozen=True)
 class HistogramData:
     """``edges``, shape (n + 1,), are deviations from the value in 10^``power`` of the unit ``label``;
-    ``trials``, ``standard`` and ``tolerance`` (δ) are texts with their unit."""
+    ``trials``, ``standard`` (–: there is none) and ``tolerance`` (δ) are texts with their unit. ``widened``:
+    the reported U is taken from the trials."""
 
     edges: Array
     counts: Array
@@ -43,6 +44,7 @@ class HistogramData:
     standard: str
     tolerance: str
     validated: bool
+    widened: bool
 
 
 def histogram_data(quantity: Quantity, unit: Unit) -> HistogramData | None:
@@ -50,7 +52,7 @@ def histogram_data(quantity: Quantity, unit: Unit) -> HistogramData | None:
     check = quantity.uncertainty.monte_carlo
     if check is None:
         return None
-    value, expanded = quantity.value, quantity.uncertainty.expanded
+    value, expanded = quantity.value, quantity.uncertainty.gum_expanded
     reach = abs(unit.factor) * max(abs(check.bins[0] - value), abs(check.bins[1] - value))
     power = 0 if reach == 0.0 or 1e-2 <= reach < 1e4 else 3 * math.floor(math.log10(reach) / 3.0)
     scale = unit.factor / 10.0**power
@@ -73,9 +75,12 @@ def histogram_data(quantity: Quantity, unit: Unit) -> HistogramData | None:
         power=power,
         label=label,
         trials=number(float(check.trials), 0),
-        standard=f"{number(abs(unit.factor) * check.standard, decimals)} {label}".rstrip(),
+        standard="–"
+        if check.standard is None
+        else f"{number(abs(unit.factor) * check.standard, decimals)} {label}".rstrip(),
         tolerance=f"{significant(abs(unit.factor) * check.tolerance, 2)} {label}".rstrip(),
         validated=check.validated,
+        widened=quantity.uncertainty.from_monte_carlo,
     )
 
 

@@ -128,7 +128,11 @@ class MonteCarloView(Translated):
             text = self.tr(
                 "{trials} trials, u = {u}: ± U is not validated (JCGM 101, clause 8, δ = {tolerance})."
             )
-            hint = self.tr("An end of ± U lies more than δ from the symmetric interval's.")
+            hint = (
+                self.tr("± U of the GUM is too short: the U reported covers the symmetric interval.")
+                if data.widened
+                else self.tr("An end of ± U lies more than δ from the symmetric interval's.")
+            )
         self.verdict.setToolTip(hint)
         self.verdict.set_content(
             "good" if data.validated else "warn",

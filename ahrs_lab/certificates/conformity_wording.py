@@ -62,7 +62,7 @@ RATIO_IN_ONE_UNIT = Words(
     "radians; given in the unit agreed.",
 )
 RAISED = Words(
-    "计算所得 U 小于本实验室声明的最佳测量能力（CMC），按 CMC 给出（k = 2）；不确定度汇总所列为计算值。",
-    "The computed U is smaller than the laboratory's best measurement capability (CMC), which is stated "
-    "instead (k = 2); the uncertainty summary shows what was computed.",
+    "计算所得 U 小于本实验室声明的最佳测量能力（CMC，k = 2），按 CMC 给出；不确定度汇总所列为计算值。",
+    "The computed U is smaller than the laboratory's best measurement capability (CMC, k = 2), which is "
+    "stated instead; the uncertainty summary shows what was computed.",
 )

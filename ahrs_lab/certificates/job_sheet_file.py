@@ -323,16 +323,17 @@ def _capability(
     ]
     values = {name: table.number(name, getattr(known, name)) for name in names}
     relative = table.numbers("rate_relative", known.rate_relative)
-    certified = table.texts("certified")
+    if table.texts("certified"):
+        raise table.wrong(
+            "certified",
+            Message(
+                "left out: enter each figure as [[standard.figure]] of the standard whose certificate "
+                "states it, so that its number stands behind the figure"
+            ),
+        )
     table.finish()
-    for name in certified:
-        if name not in (*names, "rate_relative"):
-            raise table.wrong(
-                "certified",
-                Message("names of figures: {choices}", choices=", ".join((*names, "rate_relative"))),
-            )
     check_figures(standards, table, path)
-    base = BenchCapability(rate_relative=relative, certified=certified, **values)
+    base = BenchCapability(rate_relative=relative, certified=(), **values)
     return capability_of(standards, calibrated, base)
 
 

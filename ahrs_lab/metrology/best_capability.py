@@ -13,6 +13,7 @@ from dataclasses import asdict, dataclass, replace
 from ahrs_lab.errors import InputError
 from ahrs_lab.metrology.json_reader import JsonReader
 from ahrs_lab.metrology.result import CalibrationResult, Uncertainty
+from ahrs_lab.metrology.uncertainty.budget import scale_of
 
 _K = 2.0
 
@@ -58,16 +59,21 @@ class Reported:
 
 
 def reported(result: CalibrationResult, capability: BestCapability) -> Reported:
-    """``result`` with no U below ``capability``; a raised U has k = 2 and no budget of its own."""
+    """``result`` with no U below ``capability``; a raised U has no budget of its own.
+
+    u is the capability's half, but never below what was found, and its degrees of freedom stay: a larger U
+    makes no conformance more probable. k = U/u, so at most 2.
+    """
     raised: list[str] = []
 
     def at_least(key: str, found: Uncertainty, smallest: float) -> Uncertainty:
         if not found.expanded < smallest:
             return found
         raised.append(key)
+        standard = max(scale_of(found), smallest / _K)
         return replace(
-            found, standard=smallest / _K, expanded=smallest, coverage_factor=_K, dof=math.inf, rows=(),
-            correlations=(), monte_carlo=None,
+            found, standard=standard, expanded=smallest, coverage_factor=smallest / standard, rows=(),
+            correlations=(), monte_carlo=None, from_monte_carlo=False,
         )  # fmt: skip
 
     scale_factor = {

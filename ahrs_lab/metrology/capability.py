@@ -30,13 +30,14 @@ class UsedFigure:
     @property
     def bench(self) -> BenchFigure:
         """As a budget takes it, in the unit that the figure is used in."""
+        certified = self.valid and bool(self.certificate.strip())
         return BenchFigure(
             half_width=self.stated.limit_or_expanded,
             divisor=self.stated.divisor,
             distribution=self.stated.budget_distribution,
             dof=self.stated.dof,
-            origin="certificate" if self.valid else "assumption",
-            certificate=self.certificate if self.valid else "",
+            origin="certificate" if certified else "assumption",
+            certificate=self.certificate if certified else "",
         )
 
 

@@ -60,7 +60,8 @@ class Standard:
 
 @dataclass(frozen=True)
 class BenchCapability:
-    """Figures of the bench for the budget, all expanded (k = 2) unless said, and whether each is certified.
+    """Figures of the bench for the budget, all expanded (k = 2) unless said: assumptions, for no certificate
+    with a number stands behind them (:class:`ahrs_lab.metrology.capability.StatedCapability` has those).
 
     ``rate_relative`` per band (|Ω| < 1, < 10, ≤ 1000 °/s), relative, one error for a whole band; angles in
     the unit of their name. Leans hold for each of two directions: ``wobble_arcsec`` of the platform's normal
@@ -82,7 +83,8 @@ class BenchCapability:
     """Effective bits of the data acquisition for annex A (its example: 12); None: from the output's
     resolution."""
     certified: tuple[str, ...] = ()
-    """Names of the fields above that a certificate of the standards states; the rest are assumptions."""
+    """Names that recordings of earlier releases call certified. Kept as recorded; without the certificate's
+    number they count as assumptions."""
 
     def origin(self, name: str, band: int = 0) -> Origin:
         """Where the figure ``name`` comes from; ``band`` of ``rate_relative``."""
@@ -92,7 +94,7 @@ class BenchCapability:
         """The figure ``name`` as a budget takes it, in the unit of its name; ``band`` of
         ``rate_relative``."""
         expanded = self.rate_relative[band] if name == "rate_relative" else getattr(self, name)
-        return BenchFigure(expanded, origin="certificate" if name in self.certified else "assumption")
+        return BenchFigure(expanded, origin="assumption")
 
 
 @dataclass(frozen=True)

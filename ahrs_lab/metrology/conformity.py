@@ -16,8 +16,9 @@ from scipy.special import stdtr
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
-from ahrs_lab.metrology.limits import QUANTITY_KEYS, Limit, Measured, limit_of, measured
+from ahrs_lab.metrology.limits import QUANTITY_KEYS, Limit, Measured, limit_of, measured, steady
 from ahrs_lab.metrology.result import CalibrationResult
+from ahrs_lab.metrology.uncertainty.budget import scale_of
 
 RuleKind = Literal["simple", "guard-band", "non-binary"]
 RULES: tuple[RuleKind, ...] = ("simple", "guard-band", "non-binary")
@@ -148,7 +149,7 @@ def judge(quantity: Measured, limit: Limit, rule: DecisionRule) -> Statement:
     uncertainty = quantity.uncertainty
     value = limit.value(quantity)
     expanded = limit.size(uncertainty.expanded)
-    standard = limit.size(uncertainty.standard)
+    standard = limit.size(scale_of(uncertainty))
     if not (math.isfinite(value) and all(0.0 < u < math.inf for u in (expanded, standard))):
         raise InputError(
             "The limit of {quantity} cannot be judged: its value has no uncertainty or is no number.",
@@ -200,9 +201,15 @@ def _outside(value: float, standard: float, dof: float, limit: Limit) -> float:
     return _beyond(value, standard, dof, limit.low, limit.high)
 
 
+def _moved(limit: Limit, inwards: float) -> tuple[float | None, float | None]:
+    """The limits, each ``inwards`` of itself; with twelve digits, as the value that is compared with them."""
+    low = None if limit.low is None else steady(limit.low + inwards, max(abs(limit.low), abs(inwards)))
+    high = None if limit.high is None else steady(limit.high - inwards, max(abs(limit.high), abs(inwards)))
+    return low, high
+
+
 def _acceptance(key: str, limit: Limit, guard: float) -> tuple[float | None, float | None]:
-    low = None if limit.low is None else limit.low + guard
-    high = None if limit.high is None else limit.high - guard
+    low, high = _moved(limit, guard)
     if low is not None and high is not None and low >= high:
         raise InputError(
             "The guard band of {quantity}, {guard} {unit} on each side, leaves nothing of its limits from "
@@ -224,16 +231,15 @@ def _verdict(
     acceptance: tuple[float | None, float | None],
     guard: float,
 ) -> Verdict:
-    """A value on a limit is inside it."""
+    """A value on a limit is inside it: it is compared with no more digits than the limits have."""
+    value = steady(value, max(abs(one) for one in (limit.low, limit.high, guard) if one is not None))
     if _inside(value, *acceptance):
         return "pass"
     if rule.kind != "non-binary":
         return "fail"
-    if _inside(value, limit.low, limit.high):
+    if _inside(value, *_moved(limit, 0.0)):
         return "conditional pass"
-    low = None if limit.low is None else limit.low - guard
-    high = None if limit.high is None else limit.high + guard
-    return "conditional fail" if _inside(value, low, high) else "fail"
+    return "conditional fail" if _inside(value, *_moved(limit, -guard)) else "fail"
 
 
 def _inside(value: float, low: float | None, high: float | None) -> bool:

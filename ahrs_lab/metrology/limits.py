@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, CalibrationResult, Uncertainty
@@ -56,6 +57,8 @@ LIMIT_UNITS: Mapping[str, Mapping[str, LimitUnit]] = {
 }
 """Units by the quantity's letter; those of K that are relative take a nominal value K₀."""
 
+_RATIO_DECIMALS = 14
+"""Of v/K₀ − 1: beyond lie the last bits of the ratio, which would count as digits of a small deviation."""
 _DIMENSIONLESS = ("1", "(deg/s)/(deg/s)")
 
 
@@ -136,14 +139,15 @@ class Limit:
         kind = self.kind
         if kind.relative:
             assert self.nominal
-            return _steady((measured.value / self.nominal - 1.0) * kind.factor)
+            deviation = round(measured.value / self.nominal - 1.0, _RATIO_DECIMALS)
+            return steady(deviation * kind.factor)
         self._check_unit(measured)
-        return _steady(measured.value * kind.factor)
+        return steady(measured.value * kind.factor)
 
     def size(self, amount: float) -> float:
         """An amount in the result's unit (an uncertainty) as an amount in the limit's unit."""
         kind = self.kind
-        return _steady(amount * kind.factor / (abs(self.nominal) if self.nominal else 1.0))
+        return steady(amount * kind.factor / (abs(self.nominal) if self.nominal else 1.0))
 
     def _check_unit(self, measured: Measured) -> None:
         wanted, found = self.kind.of, measured.unit
@@ -156,9 +160,13 @@ class Limit:
             )
 
 
-def _steady(product: float) -> float:
-    """Twelve digits: the last bits of a change of unit must not put a value beyond a limit it lies on."""
-    return float(f"{product:.12g}")
+def steady(number: float, size: float = 0.0) -> float:
+    """Twelve digits, of ``size`` where that is larger: the last bits of a change of unit, or of a difference,
+    must not put a value beyond a limit it lies on. So the limit that it is compared with has as many."""
+    largest = max(abs(number), size)
+    if largest == 0.0 or not math.isfinite(largest):
+        return number
+    return round(number, 11 - Decimal(repr(largest)).adjusted())
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ null."""
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any, get_args
 
 from ahrs_lab.messages import Message
@@ -131,7 +131,8 @@ def _row(row: BudgetRow) -> dict[str, Any]:
 
 
 def _read_row(reader: JsonReader) -> BudgetRow:
-    return BudgetRow(
+    """A row of earlier releases that names no certificate by its number is an assumption."""
+    row = BudgetRow(
         symbol=reader.text("symbol"),
         source=message_from_json(reader.value("message"), reader.key("message")),
         unit=reader.text("unit"),
@@ -148,6 +149,8 @@ def _read_row(reader: JsonReader) -> BudgetRow:
         shared=reader.text("shared") if reader.has("shared") else "",
         certificate=reader.text("certificate") if reader.has("certificate") else "",
     )
+    unnamed = row.origin == "certificate" and not row.certificate.strip()
+    return replace(row, origin="assumption", certificate="") if unnamed else row
 
 
 def _dof(dof: float) -> float | None:

@@ -148,7 +148,7 @@ def test_a_raised_u_is_printed_and_said(result: CalibrationResult, job: JobSheet
     assert [text_of(cell.main) for cell in table.rows[0]][:4] == [
         "Scale factor, X axis6  Kx", "1.002\u200934", "0.000\u200930", "2.00",
     ]  # fmt: skip
-    assert "best measurement capability (CMC)" in paragraphs(document)
+    assert "best measurement capability (CMC, k = 2)" in paragraphs(document)
     budgets = [b for b in document.pages[1] if isinstance(b, Table) and b.summary_rows]
     assert text_of(budgets[0].rows[-1][2].main) == "210"
     unraised = certificate_content(result, replace(job, best_capability=BestCapability(1e-5)), "en")

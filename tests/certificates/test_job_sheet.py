@@ -40,7 +40,7 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
     assert [standard.kind for standard in job.standards] == ["table", "supply", "fixture", "room"]
     assert job.standards[0].due == date(2027, 9, 1)
     assert job.capability.rate_relative == (2e-2, 2e-3, 2e-4)
-    assert "position_arcsec" in job.capability.certified
+    assert job.capability.origin("position_arcsec") == "assumption"
     assert job.approver.position_en == "Authorised signatory"
     assert job.recalibration_months == 24
     assert job.demonstration
@@ -71,7 +71,11 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
         ("[2e-2, 2e-3, 2e-4]", "[2e-2, 2e-3]", "“capability.rate_relative” must be a list of three"),
         ("[2e-2, 2e-3, 2e-4]", "[2e-2, nan, 2e-4]", "“capability.rate_relative” must be a number"),
         ("position_arcsec = 10.0", "position_arcsec = -1", "“capability.position_arcsec” must be a number"),
-        ('certified = ["rate_relative"', 'certified = ["speed"', "“capability.certified” must be names of"),
+        (
+            "position_arcsec = 10.0",
+            'position_arcsec = 10.0\ncertified = ["position_arcsec"]',
+            "“capability.certified” must be left out: enter each figure as [[standard.figure]]",
+        ),
         ('# seal = "seal.png"', 'seal = "/etc/passwd" #', "“seal” must be the name of a PNG image"),
         ('quantity = "K"', 'quantity = "Q"', "“limit[1].quantity” must be one of K, K_x"),
         ('unit = "ppm"', 'unit = "rad"', "“limit[1].unit” must be one of 1, (rad/s)"),

@@ -47,7 +47,7 @@ def test_a_limit_and_another_unit_are_read(tmp_path: Path) -> None:
 
 def test_the_table_of_the_bench_stays_beside_the_figures(tmp_path: Path) -> None:
     job = read(tmp_path, WOBBLE, capability=True)
-    assert job.capability.origin("position_arcsec") == "certificate"
+    assert job.capability.origin("position_arcsec") == "assumption"
     assert job.capability.figure("position_arcsec").certificate == ""
     assert job.capability.figure("wobble_arcsec").certificate == "DEMO-26-0815"
 

@@ -12,7 +12,7 @@ from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet
 from ahrs_lab.certificates.original_record import original_record
 from ahrs_lab.certificates.richtext import text_of
 from ahrs_lab.metrology.best_capability import BestCapability
-from ahrs_lab.metrology.result import CalibrationResult, MonteCarloCheck, Origin, Uncertainty
+from ahrs_lab.metrology.result import CalibrationResult, MonteCarloCheck, Uncertainty
 
 
 def checked(found: Uncertainty, value: float, reach: float, *, widened: bool) -> Uncertainty:
@@ -90,9 +90,9 @@ def test_a_u_raised_to_the_capability_is_no_exception(result: CalibrationResult,
     assert "Exception" not in said(result, job)
 
 
-def assumed(found: Uncertainty, origin: Origin) -> Uncertainty:
-    """The larger of the two rows of type B is from ``origin``."""
-    rows = tuple(replace(row, origin=origin) if row.symbol == "Ω" else row for row in found.rows)
+def assumed(found: Uncertainty) -> Uncertainty:
+    """The larger of the two rows of type B is an assumption."""
+    rows = tuple(replace(row, origin="assumption") if row.symbol == "Ω" else row for row in found.rows)
     return replace(found, rows=rows)
 
 
@@ -118,17 +118,13 @@ def test_quantities_that_rest_on_assumptions_are_named(
 def test_nothing_is_called_traceable_where_everything_is_assumed(
     result: CalibrationResult, job: JobSheet
 ) -> None:
-    kinds = {"scale_factor": result.scale_factor, "zero_offset": result.zero_offset}
-    kinds["misalignment"] = result.misalignment  # type: ignore[assignment]
+    scale = result.scale_factor["x"]
+    angle = result.misalignment["yx"]
     found = replace(
         result,
-        **{
-            name: {
-                key: replace(one, uncertainty=assumed(one.uncertainty, "assumption"))
-                for key, one in entries.items()
-            }
-            for name, entries in kinds.items()
-        },
+        scale_factor={"x": replace(scale, uncertainty=assumed(scale.uncertainty))},
+        zero_offset={},
+        misalignment={"yx": replace(angle, uncertainty=assumed(angle.uncertainty))},
     )
     text = said(found, job)
     assert "Traceability of the results is not shown: of every one most" in text

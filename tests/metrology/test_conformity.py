@@ -272,3 +272,32 @@ def test_a_mirrored_quantity_has_the_mirrored_verdict(value: float, expanded: fl
     down = judge(offset(-value, expanded), Limit("B", -edge, None, "deg/s"), NON_BINARY)
     assert up.verdict == down.verdict
     assert up.conformance == pytest.approx(down.conformance)
+
+
+@pytest.mark.parametrize("rule", [SIMPLE, GUARD, NON_BINARY])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("limit", "expanded"),
+    [(0.123456789012345, 0.0123456789012345), (0.3, 0.1), (1.0 / 3.0, 0.1), (2e5 / 3.0, 2e5 / 3.0 - 0.1)],
+)
+def test_a_value_exactly_on_its_limit_or_acceptance_limit_is_within(
+    rule: DecisionRule, sign: float, limit: float, expanded: float
+) -> None:
+    """Value and limits are compared with equally many digits."""
+    bounds = Limit("B", -limit, limit, "deg/s")
+    found = judge(offset(sign * (limit - rule.guard_band(expanded)), expanded), bounds, rule)
+    assert found.verdict == "pass"
+    if rule.kind == "non-binary":
+        assert judge(offset(sign * limit, expanded), bounds, rule).verdict == "conditional pass"
+        beyond = sign * (limit + rule.guard_band(expanded))
+        assert judge(offset(beyond, expanded), bounds, rule).verdict == "conditional fail"
+
+
+@pytest.mark.parametrize("deviation", [1, 5, 7, 13, 130, 999])
+def test_a_small_deviation_from_the_nominal_value_is_not_beyond_its_limit(deviation: int) -> None:
+    """1.000005 − 1 is not 5·10⁻⁶ to the last bit."""
+    limit = Limit("K", -float(deviation), float(deviation), "ppm", 1.0)
+    for sign in (1, -1):
+        value = 1.0 + sign * deviation * 1e-6
+        measured = Measured("K_x", value, "1", Uncertainty(1e-7, 2e-7, 2.0, math.inf, "gum"))
+        assert judge(measured, limit, SIMPLE).verdict == "pass"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -15,7 +16,7 @@ from ahrs_lab.metrology.best_capability import (
     capability_to_json,
     reported,
 )
-from ahrs_lab.metrology.conformity import RULES, DecisionRule
+from ahrs_lab.metrology.conformity import RULES, DecisionRule, assess
 from ahrs_lab.metrology.limits import LIMIT_UNITS, LIMITED, Limit
 from ahrs_lab.metrology.requirements import (
     MISALIGNMENT_UNITS,
@@ -26,6 +27,7 @@ from ahrs_lab.metrology.requirements import (
     requirements_from_json,
     requirements_to_json,
 )
+from ahrs_lab.metrology.result import Uncertainty
 from tests.certificates.conftest import U_B, U_K, K, sample_result
 
 
@@ -95,10 +97,47 @@ def test_u_is_raised_to_the_capability_and_only_where_it_is_smaller() -> None:
     assert raised.raised == ("K_x", "K_y", "K_z")
     x = raised.result.scale_factor["x"].uncertainty
     assert x.expanded == pytest.approx(3e-4 * K["x"])
-    assert (x.coverage_factor, x.dof) == (2.0, math.inf)
+    assert (x.coverage_factor, x.dof) == (2.0, result.scale_factor["x"].uncertainty.dof)
     assert x.standard == pytest.approx(x.expanded / 2.0)
     assert raised.result.zero_offset == result.zero_offset
     assert result.scale_factor["x"].uncertainty.expanded == U_K
+
+
+@pytest.mark.parametrize(
+    ("k", "dof", "smallest"), [(3.18, 3.0, 3.2), (1.96, math.inf, 1.97), (4.3, 2.0, 4.4), (2.0, 50.0, 9.0)]
+)
+@pytest.mark.parametrize("high", [0.5, 1.5, 3.0, 10.0, 40.0])
+def test_a_raise_makes_no_conformance_more_probable(
+    k: float, dof: float, smallest: float, high: float
+) -> None:
+    """u = 1 stays or grows, and so do the tails; U = k·u still."""
+    result = sample_result()
+    offset = replace(result.zero_offset["x"], B=0.0, uncertainty=Uncertainty(1.0, k, k, dof, "gum"))
+    found = replace(result, zero_offset={"x": offset})
+    raised = reported(found, BestCapability(B_dps=smallest)).result
+    stated = raised.zero_offset["x"].uncertainty
+    assert stated.expanded == smallest
+    assert stated.standard == max(1.0, smallest / 2.0)
+    assert stated.coverage_factor * stated.standard == pytest.approx(smallest)
+    limits = [Limit("B_x", None, high, "deg/s")]
+    before, after = (assess(one, limits, DecisionRule()) for one in (found, raised))
+    assert before is not None
+    assert after is not None
+    assert after.statements[0].conformance <= before.statements[0].conformance
+
+
+def test_a_u_from_the_trials_widens_what_a_conformance_is_taken_from() -> None:
+    """A value whose limit is U away conforms with 97.5 %, whichever way that U came about."""
+    result = sample_result()
+    for stated in (
+        Uncertainty(1.0, 3.0, 3.0, math.inf, "gum", from_monte_carlo=True),
+        Uncertainty(1.0, 1.959964, 1.959964, math.inf, "gum"),
+    ):
+        offset = replace(result.zero_offset["x"], B=0.0, uncertainty=stated)
+        limits = [Limit("B_x", None, stated.expanded, "deg/s")]
+        found = assess(replace(result, zero_offset={"x": offset}), limits, DecisionRule())
+        assert found is not None
+        assert found.statements[0].conformance == pytest.approx(0.975, abs=1e-6)
 
 
 def test_without_a_capability_the_result_is_reported_as_it_is() -> None:

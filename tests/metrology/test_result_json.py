@@ -43,6 +43,7 @@ ROWS = (
         "certificate",
         None,
         2e-4,
+        certificate="C-1",
     ),
     BudgetRow("F̄", Message("Time base"), "deg/s", 1e-5, 0.3, 3e-6, "A", "t", 1.0, 19.5, "data", 0.1, None),
 )
@@ -275,3 +276,12 @@ def test_a_u_from_the_trials_and_one_without_variance_survive_json() -> None:
     del data["from_monte_carlo"], data["monte_carlo"]["gum_expanded_uncertainty"]  # of an earlier release
     before = read_uncertainty(JsonReader(data))
     assert (before.from_monte_carlo, before.gum_expanded) == (False, before.expanded)
+
+
+def test_a_row_that_names_no_certificate_is_an_assumption() -> None:
+    """Earlier releases wrote “certificate” for figures that no numbered certificate stands behind."""
+    data = json.loads(json.dumps(uncertainty_json(STATED)))
+    data["budget"][0]["certificate"] = " "
+    assert read_uncertainty(JsonReader(data)).rows[0].origin == "assumption"
+    data["budget"][0]["certificate"] = "C-1"
+    assert read_uncertainty(JsonReader(data)).rows[0].origin == "certificate"

@@ -11,8 +11,11 @@ import numpy as np
 import pytest
 from scipy.stats import binom, chi2
 
+from ahrs_lab.metrology.capability import UsedFigure, with_figures
 from ahrs_lab.metrology.conditions import BenchCapability
+from ahrs_lab.metrology.figures_json import noted_capability, with_capability
 from ahrs_lab.metrology.result import Uncertainty
+from ahrs_lab.metrology.stated_figures import StatedFigure
 from ahrs_lab.procedures import reduction
 from ahrs_lab.recording.orientation import AXES
 from ahrs_lab.recording.read import RecordedSegment
@@ -133,7 +136,14 @@ def test_annex_a_adds_the_positions_linearly() -> None:
 
 def test_figures_of_a_certificate_are_told_from_assumptions() -> None:
     unit = VirtualUnit(density=DENSITY)
-    capability = BenchCapability(certified=("rate_relative",))
+    stated = (
+        StatedFigure("rate_relative_below_1", 2e-2, "1", 2.0),
+        StatedFigure("rate_relative_1_to_10", 2e-3, "1", 2.0),
+        StatedFigure("rate_relative_from_10", 2e-4, "1", 2.0),
+    )
+    capability = with_figures(
+        BenchCapability(), tuple(UsedFigure(one, "Table s/n 1", "C-1", valid=True) for one in stated)
+    )
     result = reduce_recording(unit.recording(unit.rates("x")), capability=capability).scale_factor["x"]
     origins = {row.symbol: row.origin for row in result.uncertainty.rows}
     assert origins["Ω"] == "certificate"
@@ -174,3 +184,18 @@ def test_an_output_without_any_step_is_named() -> None:
     (said,) = [one.what for one in result.warnings if "its resolution is not known" in one.what.text()]
     assert said.text().startswith("output X")
     assert said.text("zh").startswith("输出 X")
+
+
+def test_a_figure_without_a_certificates_number_is_an_assumption() -> None:
+    """Neither a name in a list nor a figure called valid makes it certified."""
+    stated = StatedFigure("rate_relative_from_10", 2e-4, "1", 2.0)
+    named = BenchCapability(certified=("rate_relative",))
+    numberless = with_figures(BenchCapability(), (UsedFigure(stated, "Table s/n 1", " ", valid=True),))
+    for capability in (named, numberless):
+        figure = capability.figure("rate_relative", 2)
+        assert (figure.origin, figure.certificate) == ("assumption", "")
+    unit = VirtualUnit(density=DENSITY)
+    notes = with_capability({}, named)
+    recording = unit.recording(unit.rates("x"))
+    result = reduce_recording(recording, capability=noted_capability(notes)).scale_factor["x"]
+    assert {row.origin for row in result.uncertainty.rows if row.symbol == "Ω"} == {"assumption"}

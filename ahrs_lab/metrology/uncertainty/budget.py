@@ -160,6 +160,14 @@ def coverage_factor(dof: float, probability: float = PROBABILITY) -> float:
     return float(stdtrit(dof, upper)) if math.isfinite(dof) else float(ndtri(upper))
 
 
+def scale_of(uncertainty: Uncertainty) -> float:
+    """Scale of the t-distribution by which a quantity lies about its value: u_c, and where U is from the
+    Monte Carlo trials what holds 95 % within that U."""
+    if not uncertainty.from_monte_carlo:
+        return uncertainty.standard
+    return max(uncertainty.standard, uncertainty.expanded / coverage_factor(uncertainty.dof))
+
+
 def combine(
     rows: Sequence[BudgetRow], method: Method = "gum", correlations: Sequence[Correlation] = ()
 ) -> Uncertainty:

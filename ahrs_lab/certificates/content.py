@@ -517,6 +517,7 @@ def _linearity(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, 
     return (
         Heading(writer.words(wording.LINEARITY), level=2),
         linearity_table(result.scale_factor, writer),
+        Paragraph(writer.words(wording.LINEARITY_NOTE), size=7.0, together=True),
     )
 
 

@@ -24,6 +24,7 @@ from ahrs_lab.metrology.result import (
     ZeroOffsetResult,
 )
 from ahrs_lab.metrology.rounding import format_grouped, round_to_place, round_to_uncertainty
+from ahrs_lab.metrology.scale_factor import asymmetry_standard_ppm
 
 AXES: tuple[AxisName, ...] = ("x", "y", "z")
 PER_HOUR = 3600.0
@@ -242,24 +243,46 @@ def misalignment_table(results: Mapping[str, MisalignmentResult], writer: Result
 
 def linearity_table(results: Mapping[AxisName, ScaleFactorResult], writer: ResultWriter) -> Table:
     """Usual for gyros and beyond the standard: nonlinearity, asymmetry, fitted zero."""
+    million = joined("10", (Run("−6", "sup"),))
     columns = (
         Column(writer.words(wording.AXIS)),
-        Column(writer.words(wording.NONLINEARITY), joined("10", (Run("−6", "sup"),)), "right"),
-        Column(writer.words(wording.ASYMMETRY), joined("10", (Run("−6", "sup"),)), "right"),
+        writer.column(wording.NONLINEARITY, million),
+        writer.column(wording.ASYMMETRY, million),
+        writer.column(wording.ASYMMETRY_U, million),
         writer.column(wording.FITTED_ZERO),
+        writer.column(wording.COVERAGE),
     )
-    rows = []
-    for axis, result in results.items():
-        unit = unit_text(result.unit.split("/(deg/s)")[0].strip("()") if result.unit != "1" else "°/s")
-        rows.append(
-            (
-                same(axis.upper()),
-                same(format_grouped(f"{result.nonlinearity_ppm:.1f}")),
-                same(format_grouped(f"{result.asymmetry_ppm:.1f}")),
-                Label(joined(significant(result.F0), " ", unit)),
-            )
+    rows = tuple(
+        (
+            same(joined(axis.upper(), writer.widened_of(f"F0_{axis}"))),
+            same(significant(result.nonlinearity_ppm)),
+            *_asymmetry(result, writer),
+            *_fitted_zero(result, writer),
         )
-    return Table(columns, tuple(rows))
+        for axis, result in results.items()
+    )
+    return Table(columns, rows)
+
+
+def _asymmetry(result: ScaleFactorResult, writer: ResultWriter) -> tuple[Label, Label]:
+    """The value to the place of its standard uncertainty, and that; without it two digits."""
+    standard = asymmetry_standard_ppm(result.rates_dps, result.K, result.standard_errors)
+    if not standard:
+        return same(significant(result.asymmetry_ppm)), same(DASH)
+    rounded = round_to_uncertainty(
+        _without_noise(result.asymmetry_ppm), _without_noise(standard), writer.rounding
+    )
+    return same(format_grouped(rounded.value)), same(format_grouped(rounded.expanded))
+
+
+def _fitted_zero(result: ScaleFactorResult, writer: ResultWriter) -> tuple[Label, Label]:
+    """F₀ ± U in the device's unit, rounded together, and k; two digits where there is no budget of it."""
+    unit = unit_text(result.unit.split("/(deg/s)")[0].strip("()") if result.unit != "1" else "°/s")
+    stated = result.F0_uncertainty
+    if stated is None:
+        return Label(joined(significant(result.F0), " ", unit)), same(DASH)
+    value, expanded = writer.pair(result.F0, stated)
+    return Label(joined("(", value.main, " ± ", expanded.main, ") ", unit)), _k(stated)
 
 
 def budget_table(

@@ -89,7 +89,13 @@ LINEARITY = Words("线性度与不对称性（参考）", "Nonlinearity and asym
 AXIS = Words("轴", "Axis")
 NONLINEARITY = Words("非线性", "Nonlinearity")
 ASYMMETRY = Words("不对称性", "Asymmetry")
-FITTED_ZERO = Words("拟合零位 F_{0}", "Fitted zero F_{0}")
+ASYMMETRY_U = Words("u（噪声）", "u (noise)")
+FITTED_ZERO = Words("拟合零位 F_{0} ± U", "Fitted zero F_{0} ± U")
+LINEARITY_NOTE = Words(
+    "非线性与不对称性为参考值，不给出 U；u（噪声）为不对称性的标准不确定度中各平均值自身噪声的部分。",
+    "Nonlinearity and asymmetry are informative and have no U; u (noise) is the part of the asymmetry's "
+    "standard uncertainty that comes from the noise of the means themselves.",
+)
 
 # Uncertainty, clause 8 j)
 UNCERTAINTY = Words("测量不确定度的说明", "Statement of uncertainty")

@@ -68,8 +68,6 @@ def fit_scale_factor(
     spread = float(deviation @ deviation)
     K_weights = deviation / spread
     largest = float(np.max(np.abs(outputs)))
-    K_positive = _one_sense(rates[positive], outputs[positive], F0)
-    K_negative = _one_sense(rates[negative], outputs[negative], F0)
     return ScaleFactorFit(
         K=K,
         F0=F0,
@@ -78,10 +76,32 @@ def fit_scale_factor(
         residuals=tuple(residuals.tolist()),
         static=static,
         nonlinearity_ppm=1e6 * float(np.max(np.abs(residuals))) / largest if largest > 0.0 else 0.0,
-        asymmetry_ppm=1e6 * (K_positive - K_negative) / K if K != 0.0 else 0.0,
+        asymmetry_ppm=1e6 * _difference_of_senses(rates, outputs) / K if K != 0.0 else 0.0,
         spread=spread,
         K_weights=tuple(K_weights.tolist()),
         F0_weights=tuple((1.0 / len(rates) - K_weights * rates.mean()).tolist()),
+    )
+
+
+def asymmetry_standard_ppm(
+    rates_dps: Sequence[float] | Array, K: float, standard_errors: Sequence[float] | Array
+) -> float | None:
+    """Standard uncertainty of the asymmetry from the means' own errors, shape (M,), in ppm: without what
+    means of one sense have in common (drift, table). None where the errors are not known or K is 0."""
+    rates = np.asarray(rates_dps, dtype=np.float64)
+    errors = np.asarray(standard_errors, dtype=np.float64)
+    if errors.shape != rates.shape or K == 0.0 or not np.all(np.isfinite(errors)):
+        return None
+    weights = np.array([_difference_of_senses(rates, one) for one in np.eye(len(rates))])
+    return 1e6 * float(np.linalg.norm(weights * errors)) / abs(K)
+
+
+def _difference_of_senses(rates: Array, outputs: Array) -> float:
+    """K₊ − K₋, linear in the outputs."""
+    F0 = _line(rates, outputs)[1]
+    positive, negative = rates > 0.0, rates < 0.0
+    return _one_sense(rates[positive], outputs[positive], F0) - _one_sense(
+        rates[negative], outputs[negative], F0
     )
 
 

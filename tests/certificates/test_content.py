@@ -428,3 +428,24 @@ def test_a_result_of_other_figures_than_the_jobs_is_not_certified(
     certificate_content(same, other)
     with pytest.raises(InputError, match="evaluated with other figures of the standards"):
         certificate_content(same, job)
+
+
+def test_the_fitted_zero_has_its_uncertainty_and_the_asymmetry_what_noise_gives_it(
+    result: CalibrationResult, job: JobSheet
+) -> None:
+    scale = {
+        axis: replace(one, F0_uncertainty=Uncertainty(6e-5, 1.234e-4, 2.057, 25.0, "gum"))
+        for axis, one in result.scale_factor.items()
+    }
+    annex = certificate_content(replace(result, scale_factor=scale), job, "en").pages[1]
+    table = next(block for block in annex if isinstance(block, Table) and len(block.columns) == 6)
+    row = [text_of(cell.main) for cell in table.rows[0]]
+    assert row[0] == "X"
+    assert row[1] == "7.3"
+    # to the place of its standard uncertainty
+    value, standard = row[2].partition(".")[2], row[3].partition(".")[2]
+    assert len(value) == len(standard)
+    assert row[4:] == ["(0.000\u200960 ± 0.000\u200912) °/s", "2.06"]
+    without = certificate_content(result, job, "en").pages[1]
+    table = next(block for block in without if isinstance(block, Table) and len(block.columns) == 6)
+    assert [text_of(cell.main) for cell in table.rows[0]][4:] == ["0.000\u200960 °/s", "—"]

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from ahrs_lab.errors import InputError
-from ahrs_lab.metrology.scale_factor import fit_scale_factor
+from ahrs_lab.metrology.scale_factor import asymmetry_standard_ppm, fit_scale_factor
 
 RATES = np.array([-300.0, -200.0, -100.0, -50.0, -10.0, 10.0, 50.0, 100.0, 200.0, 300.0])
 NUMBERS = st.floats(-1e3, 1e3)
@@ -85,3 +86,16 @@ def test_a_single_rate_of_one_sense_gives_its_slope_from_the_fitted_zero() -> No
 def test_one_sense_alone_is_refused(rates: list[float]) -> None:
     with pytest.raises(InputError, match="both senses"):
         fit_scale_factor(rates, rates, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("rates", [RATES, np.array([-100.0, 50.0, 100.0]), np.array([-30.0, 40.0])])
+def test_the_asymmetrys_uncertainty_is_the_scatter_that_noise_gives_it(rates: NDArray[np.float64]) -> None:
+    rng = np.random.default_rng(7)
+    errors = np.linspace(1e-4, 3e-4, len(rates))
+    found = [
+        fit_scale_factor(rates, rates + errors * rng.standard_normal(len(rates)), 0.0, 0.0).asymmetry_ppm
+        for _ in range(4000)
+    ]
+    stated = asymmetry_standard_ppm(rates, 1.0, errors)
+    assert stated == pytest.approx(np.std(found), rel=0.05, abs=1e-6)
+    assert asymmetry_standard_ppm(rates, 1.0, ()) is None

@@ -55,6 +55,7 @@ from ahrs_lab.metrology.best_capability import reported
 from ahrs_lab.metrology.conditions import Standard, clause6_violations
 from ahrs_lab.metrology.conformity import assess
 from ahrs_lab.metrology.figures_json import noted_capability, stated_figures
+from ahrs_lab.metrology.recorded_days import is_recorded_on, recorded_days
 from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, CalibrationResult, Environment, Uncertainty
 from ahrs_lab.metrology.rounding import format_grouped
 from ahrs_lab.resource_files import resource_path
@@ -79,7 +80,10 @@ def certificate_content(
         raise InputError("The result holds no scale factor, zero offset or misalignment: nothing to certify")
     mismatches = mismatches_of(result, job)
     if mismatches and not is_demonstration(result, job):
-        raise InputError(mismatches[0])
+        raise InputError(
+            "{mismatch} Correct the job sheet, or evaluate the right recording again with it.",
+            mismatch=mismatches[0],
+        )
     asked = job.requirements
     _check_units(result, job)
     shown = reported(result, job.best_capability)
@@ -126,22 +130,32 @@ def is_demonstration(result: CalibrationResult, job: JobSheet) -> bool:
 
 
 def mismatches_of(result: CalibrationResult, job: JobSheet) -> tuple[Message, ...]:
-    """Where result and job sheet are not of the same device, method or figures of the standards."""
+    """Where result and job sheet are not of the same device, day, method or figures of the standards; the
+    facts alone, as a certificate remarks on them."""
     found: list[Message] = []
     serial = str(result.device.get("serial_number", "")).strip()
     if serial and serial != job.device.serial_number:
         found.append(
             Message(
-                "The result is of the device with serial number {found}, the job sheet is for {wanted}",
+                "The result is of the device with serial number {found}, the job sheet is for {wanted}.",
                 found=serial,
                 wanted=job.device.serial_number,
+            )
+        )
+    days = recorded_days(result.notes)
+    if days is not None and not is_recorded_on(result.notes, job.calibrated):
+        found.append(
+            Message(
+                "The recording was made on {days} (UTC), the date of calibration is given as {calibrated}.",
+                days=" … ".join(dict.fromkeys(day.isoformat() for day in days)),
+                calibrated=job.calibrated.isoformat(),
             )
         )
     methods = methods_of(result)
     if methods != {job.uncertainty_method}:
         found.append(
             Message(
-                "The job asks for uncertainty by {wanted}, the result was evaluated by {found}",
+                "The job asks for uncertainty by {wanted}, the result was evaluated by {found}.",
                 wanted=job.uncertainty_method,
                 found=", ".join(sorted(methods)),
             )
@@ -150,7 +164,7 @@ def mismatches_of(result: CalibrationResult, job: JobSheet) -> tuple[Message, ..
         found.append(
             Message(
                 "The result was evaluated with other figures of the standards than the job's certificates "
-                "state: evaluate it again with the job's"
+                "state."
             )
         )
     return tuple(found)

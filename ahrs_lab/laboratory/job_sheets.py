@@ -12,6 +12,7 @@ from ahrs_lab.metrology.best_capability import capability_from_json
 from ahrs_lab.metrology.capability import capability_of, figure_conflicts
 from ahrs_lab.metrology.conditions import BenchCapability, Standard, StandardKind, clause6_violations
 from ahrs_lab.metrology.figures_json import figures_from_text
+from ahrs_lab.metrology.recorded_days import is_recorded_on, recorded_days
 from ahrs_lab.metrology.requirements import requirements_from_json
 from ahrs_lab.metrology.result import CalibrationResult, Method
 from ahrs_lab.records.rows import JobRow, LaboratoryRow, PersonRow, StandardRow
@@ -65,10 +66,20 @@ def violations(job: JobRow, result: CalibrationResult | None) -> tuple[Message, 
     conflicts = figure_conflicts(standards)
     return conflicts + clause6_violations(
         standards,
-        on_date=job.calibrated or date.today(),  # noqa: DTZ011  due dates are the laboratory's own
+        on_date=_calibrated(job, result),
         environment=result.environment if result is not None else None,
         capability=None if conflicts else capability(job),
     )
+
+
+def _calibrated(job: JobRow, result: CalibrationResult | None) -> date:
+    """The job's own day of calibration; the recording's last day where that is another or none is known, as
+    for a recording that was made elsewhere."""
+    day = job.calibrated or date.today()  # noqa: DTZ011  due dates are the laboratory's own
+    days = None if result is None else recorded_days(result.notes)
+    if result is None or days is None or is_recorded_on(result.notes, day):
+        return day
+    return days[1]
 
 
 def job_sheet(
@@ -113,7 +124,7 @@ def job_sheet(
         verifier=_person(job.verifier),
         approver=_person(job.approver),
         received=job.received,
-        calibrated=job.calibrated or date.today(),  # noqa: DTZ011
+        calibrated=_calibrated(job, result),
         issued=issued,
         place=job.place,
         place_en=job.place_en,

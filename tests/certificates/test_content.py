@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from ahrs_lab.certificates.certificate import certificate_pdf
-from ahrs_lab.certificates.content import certificate_content
+from ahrs_lab.certificates.content import certificate_content, mismatches_of
 from ahrs_lab.certificates.documents import Paragraph, Table
 from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet
 from ahrs_lab.certificates.result_tables import ResultWriter, certificates_of, significant
@@ -449,3 +449,37 @@ def test_the_fitted_zero_has_its_uncertainty_and_the_asymmetry_what_noise_gives_
     without = certificate_content(result, job, "en").pages[1]
     table = next(block for block in without if isinstance(block, Table) and len(block.columns) == 6)
     assert [text_of(cell.main) for cell in table.rows[0]][4:] == ["0.000\u200960 °/s", "—"]
+
+
+@pytest.mark.parametrize(
+    ("started", "finished", "fits"),
+    [
+        ("2026-11-22T08:00:00+00:00", "2026-11-22T15:01:02+00:00", True),
+        ("2026-11-23T01:00:00+00:00", "2026-11-24T15:01:02+00:00", True),  # the day before in America
+        ("2026-11-19T01:00:00+00:00", "2026-11-21T15:01:02+00:00", True),  # the day after in Asia
+        ("2026-11-24T01:00:00+00:00", "2026-11-25T15:01:02+00:00", False),
+        ("2026-11-19T01:00:00+00:00", "2026-11-20T15:01:02+00:00", False),
+        ("2026-11-24T01:00:00+00:00", "", False),
+        ("", "", True),
+        ("yesterday", "0001-01-01", True),
+    ],
+)
+def test_the_date_of_calibration_has_to_be_the_recordings(
+    result: CalibrationResult, job: JobSheet, started: str, finished: str, fits: bool
+) -> None:
+    recorded = replace(result, notes={"started_utc": started, "finished_utc": finished})
+    said = [message.text() for message in mismatches_of(recorded, job)]
+    if fits:
+        assert not said
+        certificate_content(recorded, job)
+        return
+    with pytest.raises(InputError, match=r"The recording was made on 2026-11-.* Correct the job sheet"):
+        certificate_content(recorded, job)
+    remarks = [
+        text_of(block.text.main)
+        for page in certificate_content(recorded, replace(job, demonstration=True), "en").pages
+        for block in page
+        if isinstance(block, Paragraph)
+    ]
+    assert said[0] in remarks
+    assert said[0].endswith("the date of calibration is given as 2026-11-22.")

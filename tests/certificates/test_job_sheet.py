@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from ahrs_lab.certificates.job_sheet import JobSheet, load_job_sheet
 from ahrs_lab.errors import InputError
+from ahrs_lab.laboratory.demonstration import REQUIREMENTS
 from ahrs_lab.metrology.best_capability import BestCapability
 from ahrs_lab.metrology.conformity import DecisionRule
 from ahrs_lab.metrology.limits import Limit
@@ -40,7 +41,8 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
     assert [standard.kind for standard in job.standards] == ["table", "supply", "fixture", "room"]
     assert job.standards[0].due == date(2027, 9, 1)
     assert job.capability.rate_relative == (2e-2, 2e-3, 2e-4)
-    assert job.capability.origin("position_arcsec") == "assumption"
+    assert job.capability.origin("position_arcsec") == "certificate"
+    assert job.requirements == REQUIREMENTS
     assert job.approver.position_en == "Authorised signatory"
     assert job.recalibration_months == 24
     assert job.demonstration
@@ -68,21 +70,29 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
         ('serial_number = "P-0113"', "", "“standard[2].serial_number” is missing"),
         ("due = 2027-09-01", 'due = "soon"', "“standard[1].due” must be a date"),
         ("[people.approver]", "[people.signer]", "“people.approver” is missing"),
-        ("[2e-2, 2e-3, 2e-4]", "[2e-2, 2e-3]", "“capability.rate_relative” must be a list of three"),
-        ("[2e-2, 2e-3, 2e-4]", "[2e-2, nan, 2e-4]", "“capability.rate_relative” must be a number"),
-        ("position_arcsec = 10.0", "position_arcsec = -1", "“capability.position_arcsec” must be a number"),
         (
-            "position_arcsec = 10.0",
-            'position_arcsec = 10.0\ncertified = ["position_arcsec"]',
+            "level_arcsec = 20.0",
+            "rate_relative = [2e-2, 2e-3]",
+            "“capability.rate_relative” must be a list of three",
+        ),
+        (
+            "level_arcsec = 20.0",
+            "rate_relative = [2e-2, nan, 2e-4]",
+            "“capability.rate_relative” must be a number",
+        ),
+        ("level_arcsec = 20.0", "level_arcsec = -1", "“capability.level_arcsec” must be a number"),
+        (
+            "level_arcsec = 20.0",
+            'level_arcsec = 20.0\ncertified = ["level_arcsec"]',
             "“capability.certified” must be left out: enter each figure as [[standard.figure]]",
         ),
         ('# seal = "seal.png"', 'seal = "/etc/passwd" #', "“seal” must be the name of a PNG image"),
         ('quantity = "K"', 'quantity = "Q"', "“limit[1].quantity” must be one of K, K_x"),
         ('unit = "ppm"', 'unit = "rad"', "“limit[1].unit” must be one of 1, (rad/s)"),
         ("nominal = 1.0", "", "“limit[1]”: The limit of K is relative"),
-        ("low = -20.0", "low = 21", "“limit[2]”: The limit of B goes from 21.0 to 20.0"),
-        ("low = -20.0", "low = nan", "“limit[2].low” must be a number"),
-        ("low = -20.0", 'low = "-20"', "“limit[2].low” must be a number"),
+        ("low = -30.0", "low = 31", "“limit[2]”: The limit of B goes from 31 to 30:"),
+        ("low = -30.0", "low = nan", "“limit[2].low” must be a number"),
+        ("low = -30.0", 'low = "-20"', "“limit[2].low” must be a number"),
         ('quantity = "L"', 'quantity = "B"', "“limit[3].unit” must be one of deg/h"),
         ('quantity = "L"\nlow', 'quantity = "L"\nlo', "“limit[3].lo” is not known here"),
         ('kind = "guard-band"', 'kind = "guard"', "“decision_rule.kind” must be one of simple"),
@@ -173,4 +183,4 @@ def test_any_value_of_the_wrong_kind_is_refused_or_read(
 @pytest.mark.parametrize("number", ["1" + "0" * 5000, "1" + "0" * 400, "inf", "nan", "-1"])
 def test_a_number_that_cannot_be_is_refused(tmp_path: Path, number: str) -> None:
     with pytest.raises(InputError):
-        read(tmp_path, changed("position_arcsec = 10.0", f"position_arcsec = {number}"))
+        read(tmp_path, changed("level_arcsec = 20.0", f"level_arcsec = {number}"))

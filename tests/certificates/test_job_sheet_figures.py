@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -14,15 +15,18 @@ from ahrs_lab.resource_files import resource_path
 
 WOBBLE = '[[standard.figure]]\nfigure = "wobble_arcsec"\nU = 1.2\nk = 2.3\ndof = 9\n'
 SQUARE = '[[standard.figure]]\nfigure = "fixture_perpendicularity_arcsec"\nlimit = 0.05\nunit = "arcmin"\n'
+STATED = re.compile(r"^\[\[standard\.figure\]\]\n(?:.+\n)+?(?=\[|\n)", re.MULTILINE)
+BENCH = '\n[capability]\nposition_arcsec = 10.0\ncertified = ["position_arcsec"]\n'
 DUE = 'due = 2027-09-01\ntraceability = "Demonstration"\n'
 
 
 def read(tmp_path: Path, figures: str, *, capability: bool = False, due: str = DUE) -> JobSheet:
-    """The demonstration's sheet with ``figures`` of its first standard, and without its [capability]."""
+    """The demonstration's sheet with nothing but ``figures`` of its first standard, and a [capability]."""
     text = resource_path("jobs/demo.toml").read_text(encoding="utf-8")
     assert DUE in text
-    head, bench = text.split("\n[capability]")
-    text = head.replace(DUE, due + figures, 1) + ("\n[capability]" + bench if capability else "")
+    head, count = STATED.subn("", text.split("\n[capability]")[0])
+    assert count == 7
+    text = head.replace(DUE, due + figures, 1) + (BENCH if capability else "")
     path = tmp_path / "JOB.toml"
     path.write_text(text, encoding="utf-8")
     return load_job_sheet(path)

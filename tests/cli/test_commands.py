@@ -169,13 +169,11 @@ def test_evaluate_leaves_its_files_and_a_certificate_can_be_made_of_them(
 def test_evaluate_takes_the_figures_of_a_jobs_standards(
     sample: Path, tmp_path: Path, capsys: Capture
 ) -> None:
-    stated = (
-        '[[standard.figure]]\nfigure = "rate_relative_from_10"\nU = 1e-4\nk = 2.5\n'
-        '[[standard.figure]]\nfigure = "wobble_arcsec"\nU = 1.0\nk = 2\n'
-    )
-    text = resource_path("jobs/demo.toml").read_text(encoding="utf-8").split("\n[capability]")[0]
-    job, place = tmp_path / "job.toml", 'traceability = "Demonstration"\n'
-    job.write_text(text.replace(place, place + stated, 1), encoding="utf-8")
+    text = resource_path("jobs/demo.toml").read_text(encoding="utf-8")
+    stated = 'figure = "rate_relative_from_10"\nU = 2e-4\nk = 2\n'
+    assert stated in text
+    job = tmp_path / "job.toml"
+    job.write_text(text.replace(stated, stated.replace("2e-4\nk = 2", "1e-4\nk = 2.5")), encoding="utf-8")
     plain = evaluated(capsys, str(sample))
     result = evaluated(capsys, str(sample), "--job", str(job))
     rows = {row["symbol"]: row for row in result["scale_factor"]["x"]["budget"] if row["symbol"] == "Ω"}
@@ -183,13 +181,12 @@ def test_evaluate_takes_the_figures_of_a_jobs_standards(
     assert (rows["Ω"]["divisor"], rows["Ω"]["half_width"]) == (2.5, 1e-4)
     assert result["scale_factor"]["x"]["K"] == plain["scale_factor"]["x"]["K"]
     used = result["notes"]["capability"]["stated"]
-    assert [(one["figure"], one["certificate"]) for one in used] == [
-        ("rate_relative_from_10", "DEMO-26-0815"),
-        ("wobble_arcsec", "DEMO-26-0815"),
-    ]
+    certificates = {one["figure"]: one["certificate"] for one in used}
+    assert certificates["rate_relative_from_10"] == certificates["wobble_arcsec"] == "DEMO-26-0815"
+    assert certificates["fixture_perpendicularity_arcsec"] == "DEMO-26-0821"
     job.write_text(job.read_text(encoding="utf-8").replace("k = 2.5\n", ""), encoding="utf-8")
     assert main(["evaluate", str(sample), "--job", str(job)]) == 2
-    assert "“standard[1].figure[1].k” is missing; add it" in capsys.readouterr().err
+    assert "“standard[1].figure[3].k” is missing; add it" in capsys.readouterr().err
 
 
 # ── recordings with defects ─────────────────────────────────────────────────────────────────────────────────

@@ -15,7 +15,7 @@ from tests.certificates.conftest import sample_result
 
 Capture = pytest.CaptureFixture[str]
 Call = Callable[..., tuple[int, str]]
-LIMITS = 'low = -20.0\nhigh = 20.0\nunit = "deg/h"'
+LIMITS = 'low = -30.0\nhigh = 30.0\nunit = "deg/h"'
 
 
 @pytest.fixture

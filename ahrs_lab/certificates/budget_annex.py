@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ahrs_lab.certificates import wording
 from ahrs_lab.certificates.documents import (
@@ -35,7 +35,7 @@ from ahrs_lab.metrology.result import BudgetRow, CalibrationResult, MonteCarloCh
 from ahrs_lab.metrology.rounding import format_grouped, round_to_place
 from ahrs_lab.metrology.uncertainty.budget import shares
 
-_SIZE = 7.5
+_SIZE = 7.0
 _NAMES = {
     "K": wording.SCALE_FACTOR_NAMES,
     "B": wording.ZERO_OFFSET_NAMES,
@@ -57,26 +57,30 @@ class _Scale:
 
 def budget_annex(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ...]:
     """A heading and a table for each budget of K, B and L; F₀ is informative and has none here."""
-    blocks: list[Block] = [Heading(writer.words(wording.BUDGETS_ANNEX))]
-    for budget in budgets_of(result):
-        if budget.letter != "F0" and budget.uncertainty.rows:
-            blocks += _of_quantity(budget, writer)
     notes = [wording.BUDGETS_NOTE]
     if any(budget.uncertainty.correlations for budget in budgets_of(result)):
         notes.append(wording.BUDGETS_CORRELATED)
-    return (*blocks, *(Paragraph(label(note, writer.language), size=7.0) for note in notes))
+    blocks: list[Block] = [Heading(writer.words(wording.BUDGETS_ANNEX))]
+    blocks += [Paragraph(label(note, writer.language), size=7.0, together=True, kept=True) for note in notes]
+    for budget in budgets_of(result):
+        if budget.letter != "F0" and budget.uncertainty.rows:
+            blocks += _of_quantity(budget, writer)
+    return tuple(blocks)
 
 
 def _of_quantity(budget: QuantityBudget, writer: ResultWriter) -> Iterator[Block]:
     scale = _scale(budget)
     name = writer.quantity(_NAMES[budget.letter][budget.index], budget.letter, budget.index)
     yield Heading(name, level=2)
-    yield _table(budget.uncertainty, scale, writer)
     check = budget.uncertainty.monte_carlo
+    table = _table(budget.uncertainty, scale, writer)
+    yield replace(table, kept=check is not None, whole=True)
     if check is not None:
-        divided = scale.unit if scale.unit == _MILLIONTH else joined("(", scale.unit, ")")
-        start = joined(symbol(budget.letter, budget.index), " / ", divided, ": ")
-        said = _check_text(budget.uncertainty, check, scale.factor, writer)
+        # K itself, which in millionths would be a number of seven digits.
+        ratio = scale.unit == _MILLIONTH
+        divided = () if ratio else joined(" / (", scale.unit, ")")
+        start = joined(symbol(budget.letter, budget.index), divided, ": ")
+        said = _check_text(budget.uncertainty, check, 1.0 if ratio else scale.factor, writer)
         yield Paragraph(Label(joined(start, said.main), said.second), size=7.0, together=True)
 
 

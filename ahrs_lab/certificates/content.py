@@ -32,6 +32,7 @@ from ahrs_lab.certificates.documents import (
     both,
     label,
     same,
+    spoken,
 )
 from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet, Party, Person
 from ahrs_lab.certificates.result_tables import (
@@ -147,7 +148,7 @@ def mismatches_of(result: CalibrationResult, job: JobSheet) -> tuple[Message, ..
         found.append(
             Message(
                 "The recording was made on {days} (UTC), the date of calibration is given as {calibrated}.",
-                days=" … ".join(dict.fromkeys(day.isoformat() for day in days)),
+                days=" – ".join(dict.fromkeys(day.isoformat() for day in days)),
                 calibrated=job.calibrated.isoformat(),
             )
         )
@@ -381,8 +382,8 @@ def _methods(
         Fields(conditions_fields(result, language), ruled=False),
     ]
     blocks.append(Heading(label(wording.DEVIATIONS, language)))
-    deviations = [_message(message, language) for message in result.deviations]
-    deviations += [_message(message, language) for message in _violations(result, job)]
+    deviations = [spoken(message, language) for message in result.deviations]
+    deviations += [spoken(message, language) for message in _violations(result, job)]
     deviations += [same(text) for text in job.accepted_violations]
     blocks += [Paragraph(text, together=True) for text in deviations] or [
         Paragraph(label(wording.NO_DEVIATIONS, language), together=True)
@@ -394,7 +395,7 @@ def _methods(
         Heading(label(wording.USE, language)),
         Paragraph(_with_mark(label(run_on(use), language), "4"), together=True),
     ]
-    remarks = [_message(message, language) for message in mismatches]
+    remarks = [spoken(message, language) for message in mismatches]
     remarks += [same(note) for note in job.notes]
     remarks += _warnings(result, language)
     if remarks:
@@ -424,15 +425,13 @@ def _with_mark(text: Label, mark: str) -> Label:
     return Label(joined(text.main, (Run(mark, "sup"),)), text.second)
 
 
-def _message(message: Message, language: CertificateLanguage) -> Label:
-    return both(message.text("zh"), message.text("en"), language)
 
 
 def _warnings(result: CalibrationResult, language: CertificateLanguage) -> list[Label]:
     """Each kind of warning once, with its first segment; how often, and at most a dozen."""
     counted: dict[str, tuple[Label, int]] = {}
     for warning in result.warnings:
-        said = _message(warning.what, language)
+        said = spoken(warning.what, language)
         if warning.segment:
             said = Label(joined(f"{Path(warning.segment).stem}: ", said.main), said.second)
         text, count = counted.get(warning.what.text(), (said, 0))
@@ -541,23 +540,25 @@ def _budgets(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ..
     marks = certificates_of(result)
     angles = [key for key in MISALIGNMENT_KEYS if key in result.misalignment]
     blocks: list[Block] = []
-    kinds: list[tuple[Words, dict[str, Uncertainty], dict[str, RichText], dict[str, float]]] = [
+    kinds: list[
+        tuple[Words, dict[str, Uncertainty], dict[str, tuple[RichText, RichText]], dict[str, float]]
+    ] = [
         (
             wording.SCALE_FACTOR,
             {a: r.uncertainty for a, r in result.scale_factor.items()},
-            {a: joined("u/", symbol("K", a), " / ", million) for a in result.scale_factor},
+            {a: (joined("u/", symbol("K", a)), million) for a in result.scale_factor},
             {a: 1e6 / abs(r.K) if r.K else 1e6 for a, r in result.scale_factor.items()},
         ),
         (
             wording.ZERO_OFFSET,
             {a: r.uncertainty for a, r in result.zero_offset.items()},
-            {a: joined(symbol("B", a), " / (°/h)") for a in result.zero_offset},
+            {a: (symbol("B", a), plain("°/h")) for a in result.zero_offset},
             dict.fromkeys(result.zero_offset, PER_HOUR),
         ),
         (
             wording.MISALIGNMENT,
             {k: result.misalignment[k].uncertainty for k in angles},
-            {k: joined(symbol("L", k), " / ", million) for k in angles},
+            {k: (symbol("L", k), joined(million, " rad")) for k in angles},
             dict.fromkeys(angles, 1e6),
         ),
     ]

@@ -5,13 +5,15 @@ All texts are final: rounded, in the languages asked for. The layout only measur
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 from ahrs_lab.certificates.job_sheet import CertificateLanguage
-from ahrs_lab.certificates.richtext import RichText, markup, plain, text_of
+from ahrs_lab.certificates.richtext import RichText, Run, markup, plain, text_of
+from ahrs_lab.messages import Message
 
 Align = Literal["left", "right"]
 
@@ -38,15 +40,17 @@ class Label:
 
 
 EMPTY = Label(())
+_LATIN = str.maketrans({"…": "...", "“": '"', "”": '"', "‘": "'", "’": "'"})
+"""The fonts draw these as wide as a Chinese character."""
+_QUANTITY = re.compile(r"(?:(?<=\b[KBL])|(?<=\bF0))_([xyz]{1,2})\b")
 
 
 def label(words: Words, language: CertificateLanguage) -> Label:
     """Our own wording in the languages of the document."""
+    english = markup(words.en.translate(_LATIN))
     if language == "en":
-        return Label(markup(words.en))
-    return Label(
-        markup(words.zh), markup(words.en) if language == "bilingual" and words.en != words.zh else ()
-    )
+        return Label(english)
+    return Label(markup(words.zh), english if language == "bilingual" and words.en != words.zh else ())
 
 
 def both(zh: str, en: str, language: CertificateLanguage) -> Label:
@@ -54,6 +58,21 @@ def both(zh: str, en: str, language: CertificateLanguage) -> Label:
     if language == "en":
         return Label(plain(en or zh))
     return Label(plain(zh or en), plain(en) if language == "bilingual" and en and zh and en != zh else ())
+
+
+def spoken(message: Message, language: CertificateLanguage) -> Label:
+    """What the software says, with the indices of quantities lowered (``B_x``)."""
+    text = both(message.text("zh"), message.text("en").translate(_LATIN), language)
+    return Label(_lowered(text.main), _lowered(text.second))
+
+
+def _lowered(text: RichText) -> RichText:
+    runs: list[Run] = []
+    for run in text:
+        for number, part in enumerate(_QUANTITY.split(run.text)):
+            if part:
+                runs.append(replace(run, text=part, shift="sub" if number % 2 else run.shift))
+    return tuple(runs)
 
 
 def same(text: str | RichText) -> Label:
@@ -97,6 +116,10 @@ class Table:
     size: float = 8.5
     summary_rows: int = 0
     """So many rows at the end stand in bold below a line."""
+    kept: bool = False
+    """On one page with what follows."""
+    whole: bool = False
+    """Not cut, unless it is longer than most of a page."""
 
 
 @dataclass(frozen=True)

@@ -42,6 +42,7 @@ _GREY = 0.86
 """The second language is grey and smaller, so that the first leads the eye."""
 # Marks that must not begin a line, and those that must not end one (Chinese typesetting).
 _NEVER_FIRST = "，。、；：！？）】》”’·,.;:!?)]}%°′″"
+_EQUALS = "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}"
 _NEVER_LAST = "（【《“‘([{±"
 
 
@@ -135,7 +136,7 @@ def wrap(rich: RichText, size: float, width: float) -> list[RichText]:
 def _lines(rich: RichText, size: float, width: float) -> tuple[RichText, ...]:
     paragraphs: list[list[Run]] = [[]]
     for run in rich:
-        first, *others = run.text.split("\n")
+        first, *others = run.text.replace(" = ", _EQUALS).split("\n")
         paragraphs[-1].append(replace(run, text=first))
         paragraphs.extend([replace(run, text=text)] for text in others)
     return tuple(line for paragraph in paragraphs for line in _wrap_one(tuple(paragraph), size, width))

@@ -5,6 +5,7 @@ order, times, people, environment, warnings, and the fingerprint of the recordin
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,7 @@ from ahrs_lab.certificates.documents import (
     both,
     label,
     same,
+    spoken,
 )
 from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet
 from ahrs_lab.certificates.layout import write_document
@@ -42,6 +44,7 @@ from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol,
 from ahrs_lab.certificates.uncertainty_statement import symbols_of
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.budgets import budgets_of
+from ahrs_lab.metrology.plan_labels import PLAN_LABELS, PLAN_VALUES
 from ahrs_lab.metrology.result import (
     MISALIGNMENT_KEYS,
     AxisName,
@@ -54,7 +57,10 @@ from ahrs_lab.metrology.result import (
 from ahrs_lab.metrology.rounding import format_grouped
 
 _DIGITS = 10
+_NO_DIFFERENCE = 9999.0
+"""Degrees of freedom from which k is that of the normal distribution to four digits."""
 _MOST_SETTINGS = 200
+_NUMBER = re.compile(r"-?\d+(\.\d+)?")
 
 
 def original_record_pdf(
@@ -216,7 +222,7 @@ def _titled(words: Words, writer: ResultWriter) -> Heading:
 
 def _rates(result: ScaleFactorResult, writer: ResultWriter) -> Iterator[Block]:
     """The rate table of 7.1 in the order run, statics and fit below."""
-    output = unit_text(result.unit.split("/(deg/s)")[0].strip("()"))
+    output = unit_text("deg/s" if result.unit == "1" else result.unit.split("/(deg/s)")[0].strip("()"))
     static = 0.5 * (result.static_before + result.static_after)
     columns = (
         Column(writer.words(wording.RAW_ORDER)),
@@ -236,7 +242,7 @@ def _rates(result: ScaleFactorResult, writer: ResultWriter) -> Iterator[Block]:
     )
     rows = tuple(tuple(Label(cell) for cell in row) for row in zip(*figures, strict=True))
     yield _titled(wording.RAW_RATES.filled(axis=result.axis.upper()), writer)
-    yield Table(columns, rows, size=8.0)
+    yield Table(columns, rows, size=8.0, kept=True)
     values = {
         "before": result.static_before,
         "after": result.static_after,
@@ -245,7 +251,7 @@ def _rates(result: ScaleFactorResult, writer: ResultWriter) -> Iterator[Block]:
         "F0": result.F0,
     }
     texts = {key: _marked(figure(value)) for key, value in values.items()}
-    words = wording.STATICS.filled(**texts, unit=text_of(unit_text(result.unit)))
+    words = wording.STATICS.filled(**texts, unit=text_of(unit_text(result.unit)), output=text_of(output))
     yield Paragraph(writer.words(words), together=True)
 
 
@@ -284,7 +290,7 @@ def _table_2(result: ZeroOffsetResult, writer: ResultWriter) -> Iterator[Block]:
         rows.append(tuple(row))
     title = wording.MULTI_POSITION if result.schedule == "multi-position" else wording.TABLE_2
     yield _titled(title.filled(axis=axis), writer)
-    yield Table(tuple(columns), tuple(rows), size=8.0)
+    yield Table(tuple(columns), tuple(rows), size=8.0, kept=True)
     words = wording.OFFSET_LINE.filled(axis=index, value=_marked(figure(result.B)))
     yield Paragraph(writer.words(words), together=True)
 
@@ -323,7 +329,7 @@ def _table_3(axis: AxisName, turned: list[MisalignmentResult], writer: ResultWri
         for sign in ("+", "−")
     )
     yield _titled(wording.TABLE_3.filled(axis=axis.upper()), writer)
-    yield Table(columns, rows, size=8.0)
+    yield Table(columns, rows, size=8.0, kept=True)
     parts: list[RichText | str] = []
     for one in turned:
         parts += [symbol("L", one.output_axis + axis), " = ", figure(one.L), " rad    "]
@@ -355,7 +361,7 @@ def _full_results(result: CalibrationResult, writer: ResultWriter) -> Iterator[B
 
 def _full_rows(result: CalibrationResult) -> Iterator[tuple[Label, ...]]:
     def row(name: RichText, value: float, unit: str, uncertainty: Uncertainty) -> tuple[Label, ...]:
-        dof = "∞" if math.isinf(uncertainty.dof) else f"{uncertainty.dof:.1f}"
+        dof = "∞" if uncertainty.dof > _NO_DIFFERENCE else f"{uncertainty.dof:.1f}"
         return (
             Label(name),
             Label(figure(value)),
@@ -402,7 +408,7 @@ def _course(result: CalibrationResult, language: CertificateLanguage) -> Iterato
         yield Paragraph(label(wording.NONE_REPEATED, language))
     yield Heading(label(wording.DEVIATIONS, language))
     for message in result.deviations:
-        yield Paragraph(_text(message, language))
+        yield Paragraph(spoken(message, language))
     if not result.deviations:
         yield Paragraph(label(wording.NO_DEVIATIONS, language))
     yield Heading(label(wording.WARNINGS, language))
@@ -426,36 +432,50 @@ def _entries(notes: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
     return [one for one in listed if isinstance(one, Mapping)] if isinstance(listed, (list, tuple)) else []
 
 
-def _text(message: Message, language: CertificateLanguage) -> Label:
-    return both(message.text("zh"), message.text("en"), language)
-
-
 def _warning_rows(
     result: CalibrationResult, language: CertificateLanguage
 ) -> Iterator[tuple[Label, Label, Label]]:
     for warning in result.warnings:
         line = str(warning.line) if warning.line else DASH
-        yield same(warning.segment or DASH), same(line), _text(warning.what, language)
+        yield same(warning.segment or DASH), same(line), spoken(warning.what, language)
 
 
 def _plan(result: CalibrationResult, language: CertificateLanguage) -> Iterator[Block]:
     plan = result.notes.get("plan")
     if not isinstance(plan, Mapping):
         return
-    rows = [(same(key), same(value)) for key, value in _settings(plan, "")][:_MOST_SETTINGS]
+    settings = list(_settings(plan, ""))[:_MOST_SETTINGS]
+    rows = [(_setting(key, language), _setting_value(value, language)) for key, value in settings]
     yield Heading(label(wording.PLAN, language))
     yield Table(
         (Column(label(wording.SETTING, language)), Column(label(wording.SETTING_VALUE, language))),
         tuple(rows),
         size=7.5,
+        whole=True,
     )
 
 
-def _settings(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, str]]:
+def _setting(key: str, language: CertificateLanguage) -> Label:
+    """By name; a key that is none of ours as it stands."""
+    return spoken(PLAN_LABELS[key], language) if key in PLAN_LABELS else same(key)
+
+
+def _setting_value(values: list[str], language: CertificateLanguage) -> Label:
+    names = [PLAN_VALUES.get(value) for value in values]
+    if not any(names):
+        return same(", ".join(format_grouped(v) if _NUMBER.fullmatch(v) else v for v in values))
+    zh, en = (
+        ", ".join(name.text(one) if name else value for name, value in zip(names, values, strict=True))
+        for one in ("zh", "en")
+    )
+    return both(zh, en, language)
+
+
+def _settings(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, list[str]]]:
     for key, value in table.items():
         if isinstance(value, Mapping):
             yield from _settings(value, f"{prefix}{key}.")
         elif isinstance(value, (list, tuple)):
-            yield f"{prefix}{key}", ", ".join(str(one) for one in value)
+            yield f"{prefix}{key}", [str(one) for one in value]
         else:
-            yield f"{prefix}{key}", str(value)
+            yield f"{prefix}{key}", [str(value)]

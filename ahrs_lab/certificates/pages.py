@@ -106,7 +106,8 @@ def _company(box: Box, following: Sequence[Box]) -> float:
         return 0.0
     after = following[0]
     whole = after.height(WIDTH)
-    least = whole if after.cut(WIDTH, min(whole - 0.1, 60.0)) is None else 60.0
+    starts = (60.0, 90.0, 120.0)
+    least = next((some for some in starts if after.cut(WIDTH, min(whole - 0.1, some)) is not None), whole)
     return after.space_before + least + _company(after, following[1:])
 
 

@@ -38,6 +38,8 @@ _ANGLE_UNITS = {
     "deg": ("°", DEGREE),
 }
 DASH = "—"
+_ROOM_FOR_TWO_NAMES = 3
+"""Columns of numbers beside which a source is named in both languages."""
 
 _UNITS = {
     "deg/s": "°/s",
@@ -73,6 +75,8 @@ def contribution(value: float, combined: float) -> str:
     0.001``."""
     if not (math.isfinite(value) and combined > 0 and math.isfinite(combined)):
         return significant(value)
+    if value == 0.0:
+        return "0"
     decimals = 2 - math.floor(math.log10(combined))
     text = round_to_place(value, decimals)
     if float(text) == 0 and value > 0:
@@ -286,7 +290,7 @@ def _fitted_zero(result: ScaleFactorResult, writer: ResultWriter) -> tuple[Label
 
 
 def budget_table(
-    names: Mapping[str, RichText],
+    names: Mapping[str, tuple[RichText, RichText]],
     uncertainties: Mapping[str, Uncertainty],
     factor: Mapping[str, float],
     marks: Mapping[str, str],
@@ -294,17 +298,19 @@ def budget_table(
 ) -> Table:
     """Contributions of every source to the quantities of one kind, one column each.
 
-    ``factor`` scales a quantity's contribution to the printed unit. A source that a certificate states
-    carries that one's mark of ``marks`` (:func:`certificates_of`), an assumption a star.
+    ``names``: the head of each column and its unit, to which ``factor`` scales a quantity's contribution. A
+    source that a certificate states carries that one's mark of ``marks`` (:func:`certificates_of`), an
+    assumption a star.
     """
     sources: dict[tuple[str, ...], tuple[Label, str]] = {}
+    roomy = len(uncertainties) <= _ROOM_FOR_TWO_NAMES
     for uncertainty in uncertainties.values():
         for row in uncertainty.rows:
-            sources.setdefault(_source(row), (_source_name(row, marks, writer), row.kind))
+            sources.setdefault(_source(row), (_source_name(row, marks, writer, both=roomy), row.kind))
     columns = (
         Column(writer.words(wording.SOURCE)),
         Column(writer.words(wording.KIND)),
-        *(Column(Label(names[key]), (), "right") for key in uncertainties),
+        *(Column(Label(names[key][0]), names[key][1], "right") for key in uncertainties),
     )
     rows = []
     for source, (name, kind) in sources.items():
@@ -338,13 +344,16 @@ def _source(row: BudgetRow) -> tuple[str, ...]:
     return row.symbol, row.source.template, band, row.origin, row.certificate
 
 
-def _source_name(row: BudgetRow, marks: Mapping[str, str], writer: ResultWriter) -> Label:
+def _source_name(
+    row: BudgetRow, marks: Mapping[str, str], writer: ResultWriter, *, both: bool = False
+) -> Label:
     words = Words(row.source.text("zh"), row.source.text("en"))
-    name = label(words, "en" if writer.language == "en" else "zh").main
+    language = writer.language if both or writer.language == "en" else "zh"
+    name = label(words, language)
     if row.origin == "assumption":
-        return Label(joined(name, " *"))
+        return Label(joined(name.main, " *"), name.second)
     mark = marks.get(row.certificate, "")
-    return Label(joined(name, (Run(f" {mark})", "sup"),))) if mark else Label(name)
+    return Label(joined(name.main, (Run(f" {mark})", "sup"),)), name.second) if mark else name
 
 
 def certificates_of(result: CalibrationResult) -> dict[str, str]:

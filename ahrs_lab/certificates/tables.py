@@ -14,7 +14,11 @@ _GAP = 9.0
 _SMALLEST = 6.0
 _MOST_AIR = 30.0
 _KEPT_WHOLE = 270.0
-"""Lower tables are not cut, points."""
+"""Lower tables are not cut, points; nor one that asks for it up to most of a page."""
+_MOST_OF_A_PAGE = 560.0
+_FEWEST_ROWS = 3
+"""On either side of a cut, unless a row is as high as a good part of a page."""
+_MUCH_ROOM = 400.0
 _LONGEST_WORD = 84.0
 """Longer words are cut rather than that they squeeze the other columns, points."""
 
@@ -93,12 +97,12 @@ class TableBox:
     """A table between thin lines; cut between rows, with its heading on each page."""
 
     space_before = 5.0
-    keep_with_next = False
     _pad = 4.0
 
     def __init__(self, table: Table, measured: _Measured | None = None) -> None:
         self._table = table
         self._measured = measured
+        self.keep_with_next = table.kept
 
     def _layout(self, width: float) -> _Measured:
         if self._measured is None:
@@ -176,16 +180,20 @@ class TableBox:
         pen.lines(start, y, lines, size, leading, align="right" if right else "left", **more)
 
     def cut(self, width: float, room: float) -> tuple[Box, Box] | None:
-        if self.height(width) <= _KEPT_WHOLE:
+        if self.height(width) <= (_MOST_OF_A_PAGE if self._table.whole else _KEPT_WHOLE):
             return None
+        count = len(self._table.rows)
         used = self._header_height(width) + 2 * self._pad
         for index, height in enumerate(self._row_heights(width)):
             used += height
             if used > room:
-                if index == 0:
-                    return None
+                end = min(index, count - _FEWEST_ROWS)
+                if end < _FEWEST_ROWS:
+                    if index == 0 or room < _MUCH_ROOM:
+                        return None
+                    end = index
                 measured = self._layout(width)
-                first = replace(self._table, rows=self._table.rows[:index], summary_rows=0)
-                rest = replace(self._table, rows=self._table.rows[index:])
+                first = replace(self._table, rows=self._table.rows[:end], summary_rows=0, kept=False)
+                rest = replace(self._table, rows=self._table.rows[end:])
                 return TableBox(first, measured), TableBox(rest, measured)
         return None

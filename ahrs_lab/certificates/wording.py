@@ -361,9 +361,10 @@ RAW_MEAN = Words("平均值", "Mean")
 RAW_OUTPUT = Words("输出 F_{j}", "Output F_{j}")
 RAW_RESIDUAL = Words("残差 v_{j}", "Residual v_{j}")
 STATICS = Words(
-    "静止输出平均值：F_{{s}} = {before}，F_{{e}} = {after}，F_{{r}} = {mean}；拟合：K = {K} {unit}，"
-    "F_{{0}} = {F0}。",
-    "At rest: F_{{s}} = {before}, F_{{e}} = {after}, F_{{r}} = {mean}; fit: K = {K} {unit}, F_{{0}} = {F0}.",
+    "静止输出平均值：F_{{s}} = {before} {output}，F_{{e}} = {after} {output}，F_{{r}} = {mean} {output}；"
+    "拟合：K = {K} {unit}，F_{{0}} = {F0} {output}。",
+    "At rest: F_{{s}} = {before} {output}, F_{{e}} = {after} {output}, F_{{r}} = {mean} {output}; fit: "
+    "K = {K} {unit}, F_{{0}} = {F0} {output}.",
 )
 TABLE_2 = Words("表 2  {axis} 轴零偏校准结果记录", "Table 2: zero offset, {axis} axis")
 MULTI_POSITION = Words("{axis} 轴零偏多位置法记录（7.2.2）", "Zero offset by positions (7.2.2), {axis} axis")

@@ -43,6 +43,17 @@ def _speed(text: str) -> float | None:
     return factor
 
 
+def _trials(text: str) -> int:
+    """A whole number; which ones can be made is known where they are made."""
+    if text.isascii() and text.isdecimal() and len(text) <= 20:
+        return int(text)
+    from ahrs_lab.metrology.uncertainty.monte_carlo import BLOCK, MAXIMAL_TRIALS
+
+    raise argparse.ArgumentTypeError(
+        f"“{text}” is not a number of trials: a whole number from {BLOCK} to {MAXIMAL_TRIALS}, or 0 for none"
+    )
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="ahrs-lab",
@@ -141,7 +152,11 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _strict_option(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--strict", action="store_true", help="exit 1 where a value is out of specification")
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="exit 1 where a value is out of specification; a conditional pass exits 0",
+    )
 
 
 def _evaluation_options(parser: argparse.ArgumentParser) -> None:
@@ -160,7 +175,7 @@ def _evaluation_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--trials",
-        type=int,
+        type=_trials,
         metavar="N",
         help="of the Monte Carlo check of each uncertainty (as many as it needs; 0: without)",
     )

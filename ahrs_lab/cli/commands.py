@@ -128,7 +128,8 @@ def _evaluate(arguments: argparse.Namespace) -> int:
     _refuse_strict_without_limits(arguments, requirements)
     result = evaluate_bundle(arguments.bundle, _settings(arguments), job.capability if job else None)
     judged = judge_result(result, requirements, job.best_capability if job else BestCapability())
-    text = "\n".join([summary(judged.shown, job.rounding if job else "half-even"), *judgement(judged)])
+    rounding: RoundingMode = job.rounding if job else "half-even"
+    text = "\n".join([summary(judged.shown, rounding), *judgement(judged, rounding)])
     if arguments.out is not None:
         files = write_files(result, arguments.out)
         text += "\n\nFiles: " + ", ".join(str(path) for path in files.values())
@@ -170,7 +171,7 @@ def _certificate(arguments: argparse.Namespace) -> int:
         certificate_pdf(result, job, arguments.out, arguments.language)
     data = {"certificate": str(arguments.out), "number": job.certificate_number, **_judged_json(judged)}
     text = f"Certificate {job.certificate_number}: {arguments.out} (not signed yet)"
-    _say(arguments, data, "\n".join([text, *judgement(judged)]))
+    _say(arguments, data, "\n".join([text, *judgement(judged, job.rounding)]))
     return _strict_code(arguments, judged)
 
 
@@ -213,8 +214,12 @@ def _replay(arguments: argparse.Namespace) -> int:
     return replay.run(arguments)
 
 
-def judgement(judged: Judged) -> list[str]:
-    """Each verdict as a person reads it in a terminal, the rule first; nothing where no limits are set."""
+def judgement(judged: Judged, rounding: RoundingMode = "half-even") -> list[str]:
+    """Each verdict as a person reads it in a terminal, the rule first; nothing where no limits are set.
+    Values, U and probability as the certificate rounds them."""
+    from ahrs_lab.certificates.conformity_tables import probability_text
+    from ahrs_lab.metrology.rounding import round_to_uncertainty
+
     lines = [f"  U of {key} raised to the laboratory's best capability" for key in judged.raised]
     conformity = judged.conformity
     if conformity is None:
@@ -222,10 +227,11 @@ def judgement(judged: Judged) -> list[str]:
     if conformity.statements:
         lines.append(f"Conformity by {conformity.rule.name().text()}: {conformity.verdict}")
     for one in conformity.statements:
-        low, high = ("" if bound is None else f"{bound:g}" for bound in (one.limit.low, one.limit.high))
+        low, high = ("" if bound is None else f"{bound:.10g}" for bound in (one.limit.low, one.limit.high))
+        rounded = round_to_uncertainty(one.value, one.expanded, rounding)
         lines.append(
-            f"  {one.key:8} {one.value:>14.6g} in [{low}, {high}] {one.limit.unit}: {one.verdict} "
-            f"(conformance probability {100.0 * one.conformance:.4g} %)"
+            f"  {one.key:8} {rounded.value:>14} ± {rounded.expanded:<8} {one.limit.unit}, limits [{low}, "
+            f"{high}]: {one.verdict} (conformance probability {probability_text(one.conformance)})"
         )
     return lines + [f"  {key:8} has a limit, but was not calibrated" for key in conformity.missing]
 

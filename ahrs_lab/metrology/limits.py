@@ -101,7 +101,8 @@ class Limit:
             )
         if self.low is not None and self.high is not None and self.low >= self.high:
             raise InputError(
-                "The limit of {quantity} goes from {low:.10g} to {high:.10g}: the lower bound has to be the smaller.",
+                "The limit of {quantity} goes from {low:.10g} to {high:.10g}: the lower bound has to be the "
+                "smaller.",
                 quantity=self.quantity,
                 low=self.low,
                 high=self.high,

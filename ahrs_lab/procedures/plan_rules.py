@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from ahrs_lab.errors import InputError
 from ahrs_lab.instruments.interfaces import TableLimits
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.plan_labels import PLAN_LABELS
 from ahrs_lab.procedures.figures import figure
 from ahrs_lab.procedures.plan_settings import (
     STANDARD_DURATION_S,
@@ -285,12 +286,7 @@ def _scale_factor(plan: Plan, device_range_dps: float | None) -> list[Message]:
             )
         )
     if not plan.power.off_between_mountings:
-        found.append(
-            Message(
-                "Power stays on while the case is re-mounted; 7.1 has it switched off "
-                "(power.off_between_mountings)."
-            )
-        )
+        found.append(Message("Power stays on while the case is re-mounted; 7.1 has it switched off."))
     return found
 
 
@@ -317,7 +313,7 @@ def _zero_offset(plan: Plan) -> list[Message]:
         found.append(
             Message(
                 "Each zero-offset position is recorded for {duration} s instead of {usual} s "
-                "(zero_offset.duration_s; the note to 7.2 permits a time that fits the device).",
+                "(the note to 7.2 permits a time that fits the device).",
                 duration=figure(zero_offset.duration_s),
                 usual=figure(usual),
             )
@@ -354,7 +350,7 @@ def _settling(settling: SettlingPlan, mounting_tolerance_deg: float, power: Powe
     return [
         Message(
             "{setting} is {value}, wider than the usual {usual}.",
-            setting=setting,
+            setting=PLAN_LABELS[setting],
             value=figure(value),
             usual=figure(limit),
         )

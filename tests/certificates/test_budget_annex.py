@@ -114,12 +114,13 @@ def test_the_monte_carlo_line_says_whether_u_is_validated(full: CalibrationResul
     blocks = budget_annex(full, ResultWriter("en", "half-even"))
     said = [text_of(block.text.main) for block in blocks if isinstance(block, Paragraph)]
     assert len(said) == 4  # three checks and the note
-    assert said[0].startswith(
+    assert said[0].startswith("u(x):")  # before the tables that it explains
+    assert said[1].startswith(
         "Bx / (°/h): Monte Carlo (JCGM 101), 200\u2009000 trials: mean 11.115, u = 0.180;"
     )
-    assert "symmetric [10.762, 11.467]" in said[0]
-    assert said[0].endswith("± U is validated by clause 8 (δ = 0.018).")
-    assert "not validated" in said[1]
+    assert "symmetric [10.762, 11.467]" in said[1]
+    assert said[1].endswith("± U is validated by clause 8 (δ = 0.018).")
+    assert "not validated" in said[2]
 
 
 def test_a_u_from_the_trials_and_a_missing_one_are_said(full: CalibrationResult) -> None:

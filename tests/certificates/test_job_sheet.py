@@ -73,7 +73,7 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
         (
             "level_arcsec = 20.0",
             "rate_relative = [2e-2, 2e-3]",
-            "“capability.rate_relative” must be a list of three",
+            "“capability.rate_relative” must be a list",
         ),
         (
             "level_arcsec = 20.0",

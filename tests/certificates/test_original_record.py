@@ -72,7 +72,7 @@ def test_the_rate_table_is_in_the_order_run_with_residuals(
     rows = [line.split()[:2] for line in printed[start + 2 : start + 12]]
     assert rows == [[str(i), r.replace("-", "−")] for i, r in enumerate(
         ["10", "-10", "50", "-50", "100", "-100", "200", "-200", "300", "-300"], 1)]  # fmt: skip
-    assert "Fs = 0.000 12，Fe = 0.000 14，Fr = 0.000 13" in printed[start + 12]
+    assert "Fs = 0.000 12 °/s，Fe = 0.000 14 °/s，Fr = 0.000 13 °/s" in printed[start + 12]
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_the_rate_table_is_in_the_order_run_with_residuals(
         "sf_x_03 the table tripped",
         "sf_x_00 3 The unit was warm",
         "The dwell is shorter",
-        "scale_factor.dwell_s 20.0",
+        "标度因数：每个速率点的时间 / s 20.0",
         "温度 (20.3 ± 0.4) °C",
     ],
 )

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from ahrs_lab.errors import InputError, MachineError
 from ahrs_lab.instruments.interfaces import TableLimits
+from ahrs_lab.metrology.plan_labels import PLAN_LABELS
 from ahrs_lab.procedures.plan import (
     MisalignmentPlan,
     Plan,
@@ -161,9 +162,22 @@ def test_the_accelerated_plan_is_short_and_says_where_it_leaves_the_standard() -
     assert len(plan.scale_factor.rates_dps) == 7
     assert (plan.scale_factor.dwell_s, plan.zero_offset.duration_s) == (20.0, 60.0)
     assert [str(d) for d in deviations(plan)] == [
-        "Each zero-offset position is recorded for 60 s instead of 1800 s (zero_offset.duration_s; the note "
+        "Each zero-offset position is recorded for 60 s instead of 1800 s (the note "
         "to 7.2 permits a time that fits the device)."
     ]
+
+
+def test_every_setting_has_a_name_to_read() -> None:
+    def keys(table: dict[str, object], prefix: str = "") -> set[str]:
+        found: set[str] = set()
+        for key, value in table.items():
+            found |= keys(value, f"{prefix}{key}.") if isinstance(value, dict) else {f"{prefix}{key}"}
+        return found
+
+    assert keys(plan_to_toml(Plan())) == set(PLAN_LABELS)
+    for label in PLAN_LABELS.values():
+        assert "_" not in label.text()
+        assert label.text("zh") != label.text()
 
 
 @pytest.mark.parametrize("path", sorted(resource_path("plans").glob("*.toml")), ids=lambda p: p.stem)
@@ -183,7 +197,10 @@ def test_every_plan_that_is_shipped_can_be_run(path: Path) -> None:
         (Plan(power=PowerPlan(off_between_mountings=False)), ["Power stays on"]),
         (Plan(misalignment=MisalignmentPlan(rate_dps=50.0)), ["±10 turns at 50 °/s"]),
         (Plan(misalignment=MisalignmentPlan(turns=5)), ["±5 turns at 100 °/s"]),
-        (Plan(settling=SettlingPlan(rate_tolerance_dps=0.5)), ["rate_tolerance_dps is 0.5, wider than"]),
+        (
+            Plan(settling=SettlingPlan(rate_tolerance_dps=0.5)),
+            ["tolerance of the rate / (°/s) is 0.5, wider than"],
+        ),
         (Plan(items=("zero_offset",)), ["scale factor", "misalignment"]),
         (Plan(axes=("x", "z")), ["X, Z"]),
         (

@@ -3,6 +3,8 @@ where it is not passed."""
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,9 @@ import pytest
 from ahrs_lab.errors import InputError
 from ahrs_lab.metrology.result import CalibrationResult, Uncertainty
 from ahrs_lab.metrology.result_json import from_json, to_json
+from ahrs_lab.metrology.rounding import format_grouped, round_to_place
 from ahrs_lab.procedures.reduction import reduce_recording
+from ahrs_lab.procedures.reduction_validation import not_validated
 from ahrs_lab.recording.read import Recording, read_bundle
 from tests.procedures.virtual_unit import VirtualUnit
 
@@ -114,8 +118,25 @@ def test_what_is_not_validated_is_said_with_both_intervals() -> None:
     low, high = stated.monte_carlo.symmetric
     B = result.zero_offset["x"].B
     assert said.text().startswith("B_x: the 95 % interval of the GUM budget")
+    decimals = -math.floor(math.log10(3600.0 * stated.monte_carlo.tolerance))
     for number in (stated.expanded, -stated.expanded, low - B, high - B):
-        assert f"{number:+.3g}" in said.text()
-        assert f"{number:+.3g}" in said.text("zh")
+        shown = format_grouped(round_to_place(3600.0 * number, decimals))
+        assert f"{'+' if number > 0 else ''}{shown} " in said.text().replace(",", " ")
+        assert shown in said.text("zh")
+    assert "(all in °/h;" in said.text()
     assert said.text().endswith("U stays the larger one of the GUM and holds more than 95 %.")
     assert not stated.from_monte_carlo
+
+
+def test_an_interval_of_the_fitted_zero_is_not_warned_of() -> None:
+    result = reduce_recording(short(), trials=TRIALS)
+    found = result.scale_factor["x"]
+    assert found.F0_uncertainty is not None
+    check = found.F0_uncertainty.monte_carlo
+    assert check is not None
+    failed = replace(
+        found,
+        uncertainty=replace(found.uncertainty, monte_carlo=None),
+        F0_uncertainty=replace(found.F0_uncertainty, monte_carlo=replace(check, validated=False)),
+    )
+    assert not not_validated({"x": failed}, {}, {})

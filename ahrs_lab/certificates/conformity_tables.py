@@ -10,6 +10,7 @@ from decimal import Decimal
 from ahrs_lab.certificates import conformity_wording as said
 from ahrs_lab.certificates import wording
 from ahrs_lab.certificates.documents import (
+    LATIN_MARKS,
     Block,
     Column,
     Heading,
@@ -98,7 +99,8 @@ def _row(one: Statement, writer: ResultWriter) -> tuple[Label, ...]:
         same(_bound(one.limit.high)),
     ]
     if one.rule.kind != "simple":
-        cells.append(same(_acceptance(one, rounded.decimals)))
+        accepted = _acceptance(one, rounded.decimals)
+        cells.append(same(accepted.translate(LATIN_MARKS) if writer.language == "en" else accepted))
     cells.append(Label(markup(one.limit.kind.label)))
     if one.rule.probability:
         cells.append(same(probability_text(one.conformance)))

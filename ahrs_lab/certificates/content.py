@@ -373,9 +373,10 @@ def _methods(
     language: CertificateLanguage,
 ) -> tuple[Block, ...]:
     blocks: list[Block] = [Heading(label(wording.UNCERTAINTY, language))]
+    statements = uncertainty_statement(result, shown, job, demonstration=is_demonstration(result, job))
     blocks += [
-        Paragraph(label(words, language), together=True)
-        for words in uncertainty_statement(result, shown, job, demonstration=is_demonstration(result, job))
+        Paragraph(label(words, language), together=True, kept=number < len(statements))
+        for number, words in enumerate(statements, 1)
     ]
     blocks += [
         Heading(label(wording.CONDITIONS, language)),

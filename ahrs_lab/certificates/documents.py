@@ -40,14 +40,14 @@ class Label:
 
 
 EMPTY = Label(())
-_LATIN = str.maketrans({"…": "...", "“": '"', "”": '"', "‘": "'", "’": "'"})
+LATIN_MARKS = str.maketrans({"…": "...", "“": '"', "”": '"', "‘": "'", "’": "'"})
 """The fonts draw these as wide as a Chinese character."""
 _QUANTITY = re.compile(r"(?:(?<=\b[KBL])|(?<=\bF0))_([xyz]{1,2})\b")
 
 
 def label(words: Words, language: CertificateLanguage) -> Label:
     """Our own wording in the languages of the document."""
-    english = markup(words.en.translate(_LATIN))
+    english = markup(words.en.translate(LATIN_MARKS))
     if language == "en":
         return Label(english)
     return Label(markup(words.zh), english if language == "bilingual" and words.en != words.zh else ())
@@ -62,7 +62,7 @@ def both(zh: str, en: str, language: CertificateLanguage) -> Label:
 
 def spoken(message: Message, language: CertificateLanguage) -> Label:
     """What the software says, with the indices of quantities lowered (``B_x``)."""
-    text = both(message.text("zh"), message.text("en").translate(_LATIN), language)
+    text = both(message.text("zh"), message.text("en").translate(LATIN_MARKS), language)
     return Label(_lowered(text.main), _lowered(text.second))
 
 

@@ -63,14 +63,14 @@ def _said(symbol: str, value: float, uncertainty: Uncertainty, factor: float, un
     if uncertainty.from_monte_carlo:
         return Message(
             "{symbol}: the 95 % interval of the GUM budget, value {gum_low} to {gum_high}, is not that of "
-            "{trials} Monte Carlo trials, value {low} to {high}, within {tolerance} (all in {unit}; JCGM 101, "
-            "clause 8): U was raised to {expanded}, which covers the trials' interval.",
+            "{trials} Monte Carlo trials, value {low} to {high}, within {tolerance} (all in {unit}; "
+            "JCGM 101, clause 8): U was raised to {expanded}, which covers the trials' interval.",
             expanded=text(uncertainty.expanded, plus=False),
             **numbers,
         )
     return Message(
         "{symbol}: the 95 % interval of the GUM budget, value {gum_low} to {gum_high}, is not that of "
-        "{trials} Monte Carlo trials, value {low} to {high}, within {tolerance} (all in {unit}; JCGM 101, "
-        "clause 8): U stays the larger one of the GUM and holds more than 95 %.",
+        "{trials} Monte Carlo trials, value {low} to {high}, within {tolerance} (all in {unit}; "
+        "JCGM 101, clause 8): U stays the larger one of the GUM and holds more than 95 %.",
         **numbers,
     )

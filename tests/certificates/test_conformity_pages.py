@@ -63,7 +63,7 @@ def test_each_quantity_stands_beside_its_limits_in_their_unit(
     found = rows(certificate_content(result, asking(job, DecisionRule("non-binary", 1.0, True)), "en"))
     scale = chance(2400.0, K["x"] * 1e6 - 1e6, U_K * 1e6 / 2.0)
     assert found["Kx"] == [
-        "2340", "210", "−2400", "2400", "−2190 … 2190", "10−6", scale, "conditional pass",
+        "2340", "210", "−2400", "2400", "−2190 ... 2190", "10−6", scale, "conditional pass",
     ]  # fmt: skip
     offset = chance(11.2, B["x"] * 3600.0, U_B * 3600.0 / 2.04)
     assert found["Bx"] == ["11.11", "0.35", "—", "11.2", "≤ 10.85", "°/h", offset, "conditional pass"]
@@ -158,8 +158,8 @@ def test_a_raised_u_is_printed_and_said(result: CalibrationResult, job: JobSheet
 def test_a_raised_u_widens_the_guard_band(result: CalibrationResult, job: JobSheet) -> None:
     rule = DecisionRule("guard-band")
     wide = asking(job, rule, best_capability=BestCapability(3e-4))
-    assert rows(certificate_content(result, asking(job, rule), "en"))["Kx"][4] == "−2190 … 2190"
-    assert rows(certificate_content(result, wide, "en"))["Kx"][4] == "−2100 … 2100"
+    assert rows(certificate_content(result, asking(job, rule), "en"))["Kx"][4] == "−2190 ... 2190"
+    assert rows(certificate_content(result, wide, "en"))["Kx"][4] == "−2100 ... 2100"
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ import pikepdf
 import pytest
 
 from ahrs_lab.certificates.certificate import certificate_pdf
-from ahrs_lab.certificates.documents import Column, Table, same
+from ahrs_lab.certificates.documents import Column, Table, Words, label, same
 from ahrs_lab.certificates.drawing import text_width, wrap
 from ahrs_lab.certificates.fonts import register_fonts
 from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet, Party, Person
@@ -23,7 +23,7 @@ from ahrs_lab.certificates.pages import MARGIN, PAGE_WIDTH
 from ahrs_lab.certificates.plot import nice_ticks
 from ahrs_lab.certificates.plots import plots_pdf
 from ahrs_lab.certificates.richtext import plain, text_of
-from ahrs_lab.certificates.tables import column_widths
+from ahrs_lab.certificates.tables import TableBox, column_widths
 from ahrs_lab.errors import InputError
 from ahrs_lab.metrology.conditions import Standard
 from ahrs_lab.metrology.result import CalibrationResult
@@ -298,3 +298,25 @@ def test_footnotes_stay_together(tmp_path: Path, result: CalibrationResult, job:
 
 def test_a_scale_has_two_ticks_even_where_all_is_zero() -> None:
     assert len(nice_ticks(0.0, 0.0)) == 2
+
+
+def test_no_page_has_less_than_three_rows_of_a_table_that_is_cut() -> None:
+    register_fonts()
+    table = Table((Column(same("n")),), tuple((same(str(n)),) for n in range(40)), kept=True)
+    box = TableBox(table)
+    high = box.height(400.0)
+    cuts = [parts for room in range(20, int(high)) if (parts := box.cut(400.0, float(room))) is not None]
+    assert len(cuts) > 100
+    row = (high - box._header_height(400.0)) / 41
+    for first, rest in cuts:
+        assert first.height(400.0) - box._header_height(400.0) > 3 * row
+        assert rest.height(400.0) - box._header_height(400.0) > 3 * row
+        assert (first.keep_with_next, rest.keep_with_next) == (False, True)
+
+
+def test_an_equation_is_not_parted_and_english_marks_are_narrow() -> None:
+    register_fonts()
+    for width in range(40, 200, 5):
+        for line in wrap(plain("coverage factor k = 2 and some more words"), 8.0, float(width)):
+            assert not text_of(line).replace("\N{NO-BREAK SPACE}", " ").startswith(("= 2", "2 "))
+    assert text_of(label(Words("“一”…", "“a” …"), "bilingual").second) == '"a" ...'

@@ -426,8 +426,6 @@ def _with_mark(text: Label, mark: str) -> Label:
     return Label(joined(text.main, (Run(mark, "sup"),)), text.second)
 
 
-
-
 def _warnings(result: CalibrationResult, language: CertificateLanguage) -> list[Label]:
     """Each kind of warning once, with its first segment; how often, and at most a dozen."""
     counted: dict[str, tuple[Label, int]] = {}

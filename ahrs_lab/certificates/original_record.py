@@ -42,7 +42,6 @@ from ahrs_lab.certificates.layout import write_document
 from ahrs_lab.certificates.result_tables import AXES, DASH, ResultWriter, unit_text
 from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol, text_of
 from ahrs_lab.certificates.uncertainty_statement import symbols_of
-from ahrs_lab.messages import Message
 from ahrs_lab.metrology.budgets import budgets_of
 from ahrs_lab.metrology.plan_labels import PLAN_LABELS, PLAN_VALUES
 from ahrs_lab.metrology.result import (

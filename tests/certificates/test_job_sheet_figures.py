@@ -16,7 +16,7 @@ from ahrs_lab.resource_files import resource_path
 WOBBLE = '[[standard.figure]]\nfigure = "wobble_arcsec"\nU = 1.2\nk = 2.3\ndof = 9\n'
 SQUARE = '[[standard.figure]]\nfigure = "fixture_perpendicularity_arcsec"\nlimit = 0.05\nunit = "arcmin"\n'
 STATED = re.compile(r"^\[\[standard\.figure\]\]\n(?:.+\n)+?(?=\[|\n)", re.MULTILINE)
-BENCH = '\n[capability]\nposition_arcsec = 10.0\ncertified = ["position_arcsec"]\n'
+BENCH = "\n[capability]\nposition_arcsec = 10.0\n"
 DUE = 'due = 2027-09-01\ntraceability = "Demonstration"\n'
 
 

@@ -75,7 +75,7 @@ def test_trials_can_be_left_out_or_fixed_and_leave_the_budget_as_it_is() -> None
 
 
 def test_u_covers_the_trials_where_the_budget_is_too_short_and_the_warning_says_so() -> None:
-    """Drift known to little more than one degree of freedom: its tails reach further than k of ν_eff tells."""
+    """Drift known to little more than one degree of freedom: its tails reach further than k tells."""
     result = reduce_recording(short())
     angle = result.misalignment["yx"]
     stated, check = angle.uncertainty, angle.uncertainty.monte_carlo

@@ -59,12 +59,12 @@ class Photographer:
             QCoreApplication.processEvents(QEventLoop.ProcessEventsFlag.AllEvents, 20)
             time.sleep(0.005)
 
-    def until(self, there: Callable[[], bool]) -> None:
-        """Wait, with the event loop going on."""
+    def until(self, there: Callable[[], bool], what: str) -> None:
+        """Wait for ``what``, with the event loop going on."""
         end = time.monotonic() + PATIENCE_S
         while not there():
             if time.monotonic() > end:
-                raise SystemExit("the application did not get there in time")
+                raise SystemExit(f"not there after {PATIENCE_S:.0f} s: {what}")
             self._settle(0.02)
 
     def _speed(self, speed: float) -> None:
@@ -85,7 +85,7 @@ class Photographer:
         self.take("run-none")
         assert desk.actor is not None
         desk.start_run(number, desk.actor)
-        self.until(lambda: self._model().request is not None)
+        self.until(lambda: self._model().request is not None, "the first mounting is asked for")
         self.take("run-mount")
         self._measure()
         go("results")
@@ -93,7 +93,7 @@ class Photographer:
         self.take("results")
         self._result_tabs()
         go("certificate")
-        self.until(lambda: not desk.background.busy)
+        self.until(lambda: not desk.background.busy, "the certificate is drawn")
         self.take("certificate")
         for page in ("bench", "setup"):
             go(page)
@@ -114,32 +114,32 @@ class Photographer:
         run, model = self._screen.workspace.run, self._model
         self._speed(FAST)
         run.confirm_mounted()
-        self.until(lambda: model().activity is not None and model().powered)
+        self.until(lambda: model().activity is not None and model().powered, "the device is powered")
         self._speed(VISIBLE)
         self.take("run-power")
         self._speed(FAST)
-        self.until(self._at_a_rate)
+        self.until(self._at_a_rate, "a recording at 100 °/s")
         self._speed(VISIBLE)
         self._settle(2.5)
         self.take("run-record")
         run.toggle_pause()
         self._speed(FAST)
-        self.until(lambda: model().state == "paused")
+        self.until(lambda: model().state == "paused", "the run is paused")
         self.take("run-paused")
         run.toggle_pause()
         run.stop()
-        self.until(lambda: not run.live)
+        self.until(lambda: not run.live, "the run is stopped")
         self._screen.workspace.go_to("run")
         self.take("run-stopped")
-        run.resume_recording()
+        self._screen.desk.resume_run()
         while run.live:
-            self.until(lambda: model().request is not None or not run.live)
+            self.until(lambda: model().request is not None or not run.live, "the next mounting or the end")
             if model().request is not None and not model().confirmed:
                 self._speed(FAST * 20)
                 run.confirm_mounted()
             self._settle(0.05)
         assert model().state == "done", model().reason or Message("no reason")
-        self.until(lambda: not self._screen.desk.background.busy)
+        self.until(lambda: not self._screen.desk.background.busy, "the result is evaluated")
         self._screen.workspace.go_to("run")
         self.take("run-done")
 

@@ -6,7 +6,10 @@ import math
 from datetime import timedelta
 
 THIN_SPACE = "\u2009"
+NO_BREAK_SPACE = "\u00a0"
+WORD_JOINER = "\u2060"
 MINUS = "\u2212"
+_SECONDS_ALONE = 100
 DASH = "–"
 """Stands where there is no value yet."""
 
@@ -35,14 +38,27 @@ def signed_rate(value_dps: float) -> str:
     return (MINUS if value_dps < 0 else "") + text
 
 
-def duration(seconds: float | None) -> str:
-    """``0:24``, ``52:10``, ``1:12:10``; rounded up, so that nothing stands at zero before it is over."""
+def duration(seconds: float | None, *, short: bool = False) -> str:
+    """``24 s``, ``52 min 10 s``, ``1 h 05 min``; rounded up, so that nothing stands at zero before it is
+    over. ``short``: seconds alone below 100 s, whole minutes from there on."""
     if seconds is None or not math.isfinite(seconds):
         return DASH
     whole = max(0, math.ceil(seconds - 1e-6))
-    hours, rest = divmod(whole, 3600)
-    minutes, left = divmod(rest, 60)
-    return f"{hours}:{minutes:02d}:{left:02d}" if hours else f"{minutes}:{left:02d}"
+    if whole >= 3600:
+        hours, minutes = divmod(math.ceil(whole / 60), 60)
+        parts = [f"{hours} h", *([f"{minutes:02d} min"] if minutes else [])]
+    else:
+        minutes, left = divmod(whole, 60)
+        if short:
+            minutes, left = (0, whole) if whole < _SECONDS_ALONE else (math.ceil(whole / 60), 0)
+        parts = [f"{minutes} min"] if minutes else []
+        parts += [f"{left:02d} s" if minutes else f"{left} s"] if left or not minutes else []
+    return " ".join(parts).replace(" ", NO_BREAK_SPACE)
+
+
+def unbroken(text: str) -> str:
+    """For a text that wraps: no line ends within °/s, nor between it and its number."""
+    return text.replace(" °/", f"{NO_BREAK_SPACE}°/").replace("°/s", f"°{WORD_JOINER}/{WORD_JOINER}s")
 
 
 def wall_time_left(bench_seconds: float, speed: float | None) -> timedelta | None:

@@ -99,6 +99,10 @@
         <translation>台架时间；装夹 {count} 次</translation>
     </message>
     <message>
+        <source>A limit is not right: see the tab Limits.</source>
+        <translation>有一项限值不正确：请看“限值”页。</translation>
+    </message>
+    <message>
         <source>The plan cannot be run as it stands: see the tab Plan.</source>
         <translation>方案目前无法执行：请看“方案”页。</translation>
     </message>
@@ -533,7 +537,7 @@
     </message>
     <message>
         <source>s/n {number}</source>
-        <translation>编号 {number}</translation>
+        <translation>出厂编号 {number}</translation>
     </message>
     <message>
         <source>Simulated bench</source>
@@ -2396,6 +2400,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>下一步：翻转为 {face}</translation>
     </message>
     <message>
+        <source>now</source>
+        <translation>现在</translation>
+    </message>
+    <message>
         <source>no other mounting follows</source>
         <translation>之后不再装夹</translation>
     </message>
@@ -2835,7 +2843,7 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <name>SignDialog</name>
     <message>
         <source>Password of {name}</source>
-        <translation>{name} 的密码</translation>
+        <translation>{name}的密码</translation>
     </message>
     <message>
         <source>Your signature fixes the content of the certificate.</source>
@@ -2902,6 +2910,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>later</source>
         <translation>稍后</translation>
+    </message>
+    <message>
+        <source>Finish the run first</source>
+        <translation>请先完成本次运行</translation>
     </message>
     <message>
         <source>missing</source>
@@ -3120,8 +3132,8 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>仿真台架</translation>
     </message>
     <message>
-        <source>Table, supply, room and device are simulated in this release: every result and certificate says so.</source>
-        <translation>本版本的转台、电源、环境和被校对象均为仿真：每份结果和证书都会注明。</translation>
+        <source>The demonstration&apos;s table, supply, room and unit are simulated: each of its results and certificates says so.</source>
+        <translation>演示所用的转台、电源、环境和航姿仪均为仿真：其每份结果和证书都会注明。</translation>
     </message>
     <message>
         <source>Look at the bench</source>
@@ -3503,12 +3515,20 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>假如：U = {expanded}（k = {k}），而不是 {before}。这不是结果，不会保存。</translation>
     </message>
     <message>
+        <source>What if: U = {expanded} (k = {k}), unchanged. Not the result; nothing is stored.</source>
+        <translation>假如：U = {expanded}（k = {k}），没有变化。这不是结果，不会保存。</translation>
+    </message>
+    <message>
         <source>Reset</source>
         <translation>还原</translation>
     </message>
 </context>
 <context>
     <name>Words</name>
+    <message>
+        <source>, </source>
+        <translation>、</translation>
+    </message>
     <message>
         <source>Operator</source>
         <translation>校准员</translation>
@@ -3584,6 +3604,18 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>roll</source>
         <translation>横滚</translation>
+    </message>
+    <message>
+        <source>single-axis position and rate table</source>
+        <translation>单轴位置速率转台</translation>
+    </message>
+    <message>
+        <source>DC supply</source>
+        <translation>直流电源</translation>
+    </message>
+    <message>
+        <source>{name} (simulated)</source>
+        <translation>{name}（仿真）</translation>
     </message>
     <message>
         <source>Pass</source>

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ahrs_lab.ui.plots.scale import SteppedRange, nice_range, nice_step
+from ahrs_lab.ui.plots.scale import SteppedRange, nice_range, nice_step, tick_step
 
 values = st.floats(-1e4, 1e4, allow_nan=False)
 
@@ -42,3 +45,11 @@ def test_range_shrinks_only_after_a_while() -> None:
     assert changes.count(True) == 1
     assert changes.index(True) > 20
     assert (shown.low, shown.high) == (-1.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high"), [(-200.0, 200.0), (0.7, 1.5), (-0.01, 0.01), (0.55, 0.85), (3.0, 3.4)]
+)
+def test_an_axis_has_at_least_two_numbers(low: float, high: float) -> None:
+    step = tick_step(low, high, 2)
+    assert math.floor(high / step + 1e-9) - math.ceil(low / step - 1e-9) >= 1

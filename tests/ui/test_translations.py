@@ -86,10 +86,27 @@ def test_signs_counts_and_rates() -> None:
 
 
 @pytest.mark.parametrize(
-    ("seconds", "text"), [(0.2, "0:01"), (24.0, "0:24"), (3130.0, "52:10"), (4330.0, "1:12:10"), (None, "–")]
+    ("seconds", "text"),
+    [
+        (0.0, "0 s"),
+        (0.2, "1 s"),
+        (24.0, "24 s"),
+        (60.0, "1 min"),
+        (3125.0, "52 min 05 s"),
+        (3600.0, "1 h"),
+        (3859.5, "1 h 05 min"),
+        (4330.0, "1 h 13 min"),
+        (7199.0, "2 h"),
+        (None, "–"),
+    ],
 )
 def test_durations_never_stand_at_zero_before_their_end(seconds: float | None, text: str) -> None:
-    assert duration(seconds) == text
+    assert duration(seconds).replace("\u00a0", " ") == text
+
+
+def test_short_durations_have_one_unit_below_an_hour() -> None:
+    texts = [duration(seconds, short=True).replace("\u00a0", " ") for seconds in (73.0, 100.0, 3541.0)]
+    assert texts == ["73 s", "2 min", "60 min"]
 
 
 def test_wall_time_follows_the_bench_speed() -> None:

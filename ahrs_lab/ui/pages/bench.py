@@ -20,7 +20,7 @@ from ahrs_lab.ui.pages.widgets.chip import Chip
 from ahrs_lab.ui.pages.widgets.form import ChoiceField
 from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
 from ahrs_lab.ui.pages.widgets.tick_box import TickBox
-from ahrs_lab.ui.pages.words import fault_names
+from ahrs_lab.ui.pages.words import fault_names, instrument_name
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Banner, Card, EmptyState, KeyValueTable, Label
@@ -192,9 +192,9 @@ class BenchPage(Page):
             "info" if view.simulated else "good",
             self.tr("simulated") if view.simulated else self.tr("instruments"),
         )
-        self.instruments.set_value("table", said(view.table))
-        self.instruments.set_value("ahrs", said(view.ahrs))
-        self.instruments.set_value("supply", said(view.supply))
+        self.instruments.set_value("table", instrument_name(said(view.table)))
+        self.instruments.set_value("ahrs", instrument_name(said(view.ahrs)))
+        self.instruments.set_value("supply", instrument_name(said(view.supply)))
         device = view.device
         unit = device.rate_unit.replace("deg/s", "°/s")
         self.instruments.set_value("stream", f"{number(device.sample_rate_hz, 0)} Hz, {unit}")

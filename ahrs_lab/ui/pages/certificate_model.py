@@ -9,12 +9,15 @@ from typing import Literal
 from ahrs_lab.records.rows import JobRow, JobState, PersonRow, SignatureRow, SigningRole
 
 SIGNING_ORDER: tuple[SigningRole, ...] = ("operator", "verifier", "approver")
-Turn = Literal["signed", "yours", "theirs", "later", "nobody"]
+Turn = Literal["signed", "yours", "theirs", "later", "unmeasured", "nobody"]
 _STATE_TO_SIGN: dict[SigningRole, JobState] = {
     "operator": "measured",
     "verifier": "measured",
     "approver": "checked",
 }
+
+_BEFORE: tuple[JobState, ...] = ("draft", "ready", "running")
+"""States in which a job has no finished run, be it one that is repeated."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +25,7 @@ class SigningPlace:
     """One of the three fields: whose it is, and what it waits for.
 
     ``turn``: signed; yours (the person at the screen signs now); theirs (its person signs now); later
-    (another signature comes first); nobody (the job names nobody).
+    (another signature comes first); unmeasured (the run is not finished); nobody (the job names nobody).
     """
 
     role: SigningRole
@@ -45,6 +48,8 @@ def signing_places(
             turn = "signed"
         elif person is None:
             turn = "nobody"
+        elif job.state in _BEFORE:
+            turn = "unmeasured"
         elif len(done) == number and job.state == _STATE_TO_SIGN[role]:
             turn = "yours" if actor is not None and actor.id == person.id else "theirs"
         else:

@@ -60,6 +60,7 @@ class SignPanel(Panel):
             "yours": ("accent", "sign", self.tr("your turn")),
             "theirs": ("warn", "clock", self.tr("waits")),
             "later": ("plain", "clock", self.tr("later")),
+            "unmeasured": ("plain", "clock", self.tr("Finish the run first")),
             "nobody": ("bad", "bad", self.tr("missing")),
         }
         kind, icon, text = words[place.turn]

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QVBoxLayout
 
 from ahrs_lab.certificates.verify import SignatureReport, VerificationReport
 from ahrs_lab.ui.pages.widgets.icon_line import IconLine
-from ahrs_lab.ui.pages.words import role_names
+from ahrs_lab.ui.pages.words import listed, role_names
 from ahrs_lab.ui.theme import GAP
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Card, IconButton
@@ -73,7 +73,7 @@ class VerdictCard(Card):
             return said(report.summary)
         if report.unsigned_fields:
             names = {str(role): name for role, name in role_names().items()}
-            missing = ", ".join(names.get(field, field) for field in report.unsigned_fields)
+            missing = listed(names.get(field, field) for field in report.unsigned_fields)
             return self.tr("Intact; not yet signed: {roles}").format(roles=missing)
         return self.tr("Intact and unchanged since the last signature")
 

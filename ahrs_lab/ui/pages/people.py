@@ -29,5 +29,5 @@ def shown_position(person: PersonRow, language: str) -> str:
 def device_line(job: JobRow, language: str) -> str:
     """``VN-100 · s/n 0100012345``: model, or the name where there is no model."""
     model = job.device.model or shown_name(job.device, language)
-    word = "编号" if language == "zh" else "s/n"
+    word = "出厂编号" if language == "zh" else "s/n"
     return f"{model} · {word} {job.device.serial_number}" if job.device.serial_number else model

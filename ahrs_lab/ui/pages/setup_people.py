@@ -12,7 +12,7 @@ from ahrs_lab.ui.pages.widgets.dialogs import Question
 from ahrs_lab.ui.pages.widgets.form import TextField, TickField, grid
 from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
 from ahrs_lab.ui.pages.widgets.tick_box import TickBox
-from ahrs_lab.ui.pages.words import role_names
+from ahrs_lab.ui.pages.words import listed, role_names
 from ahrs_lab.ui.theme import CARD_MARGIN
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Label, PrimaryButton, SecondaryButton
@@ -59,7 +59,7 @@ class PeoplePanel(Translated):
                 Cell(person.name, strong=True),
                 Cell(person.name_en),
                 Cell(" / ".join(text for text in (person.position, person.position_en) if text), "muted"),
-                Cell(", ".join(names[role] for role in ROLES if role in person.roles)),
+                Cell(listed(names[role] for role in ROLES if role in person.roles)),
                 Cell(
                     self.tr("active") if person.active else self.tr("left"),
                     "good" if person.active else "muted",

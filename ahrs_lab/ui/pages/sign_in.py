@@ -10,7 +10,7 @@ from ahrs_lab.ui.pages.desk import Desk
 from ahrs_lab.ui.pages.people import shown_name, shown_position
 from ahrs_lab.ui.pages.widgets.dialogs import Question
 from ahrs_lab.ui.pages.widgets.form import ChoiceField, TextField
-from ahrs_lab.ui.pages.words import role_names
+from ahrs_lab.ui.pages.words import listed, role_names
 from ahrs_lab.ui.translation import language, said
 
 
@@ -58,7 +58,7 @@ class SignInDialog(Question):
 
 def _line(person: PersonRow) -> str:
     """``Demo operator · Calibration engineer``."""
-    position = shown_position(person, language()) or ", ".join(
+    position = shown_position(person, language()) or listed(
         text for role, text in role_names().items() if role in person.roles
     )
     name = shown_name(person, language())

@@ -135,8 +135,8 @@ class StartPage(Page):
             "info",
             self.tr("Simulated bench"),
             self.tr(
-                "Table, supply, room and device are simulated in this release: "
-                "every result and certificate says so."
+                "The demonstration's table, supply, room and unit are simulated: "
+                "each of its results and certificates says so."
             ),
             self.tr("Look at the bench"),
         )

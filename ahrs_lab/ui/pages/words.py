@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from PySide6.QtCore import QCoreApplication
 
 from ahrs_lab.metrology.conformity import RuleKind, Verdict
 from ahrs_lab.recording.orientation import Axis
 from ahrs_lab.records.rows import JobState, Role
 from ahrs_lab.ui.pages.widgets.chip import ChipKind
+
+
+def listed(names: Iterable[str]) -> str:
+    """One after the other, as the language separates them."""
+    return QCoreApplication.translate("Words", ", ").join(names)
 
 
 def role_names() -> dict[Role, str]:
@@ -66,6 +73,19 @@ def axis_names() -> dict[Axis, str]:
         "y": translate("Words", "pitch"),
         "z": translate("Words", "roll"),
     }
+
+
+def instrument_name(identity: str) -> str:
+    """What a virtual instrument says of itself; of any other what it says."""
+    name, mark, rest = identity.partition(" (simulated)")
+    if not mark or rest:
+        return identity
+    translate = QCoreApplication.translate
+    known = {
+        "single-axis position and rate table": translate("Words", "single-axis position and rate table"),
+        "DC supply": translate("Words", "DC supply"),
+    }
+    return translate("Words", "{name} (simulated)").format(name=known.get(name, name))
 
 
 def verdict_names() -> dict[Verdict, str]:

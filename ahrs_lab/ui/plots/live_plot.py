@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QGraphicsItem, QVBoxLayout, QWidget
 
 from ahrs_lab.ui.formatting import MINUS
 from ahrs_lab.ui.plots.envelope import Envelope, EnvelopeRing
-from ahrs_lab.ui.plots.scale import SteppedRange, nice_step
+from ahrs_lab.ui.plots.scale import SteppedRange, tick_step
 from ahrs_lab.ui.theme import STEP, font, tokens
 from ahrs_lab.ui.widgets.labels import Label
 
@@ -29,7 +29,11 @@ Array = NDArray[np.float64]
 FRAME_MS = 33
 _CACHE_KB = 256 * 1024
 _LEFT_AXIS_PX = 58
+_CAPTION_PX = 20
+"""Above the axes, so that the caption covers no curve."""
+_TIME_AXIS_PX, _NO_AXIS_PX = 24, 4
 _PADDING = 0.12
+_LINE_PX, _LEAST_PX = 20, 44
 _TICK_PX = 26
 """At least so much room for a number at the value axis."""
 
@@ -190,11 +194,12 @@ class _Panel(pg.PlotWidget):  # type: ignore[misc]
         self.setFrameShape(self.Shape.NoFrame)
         self.setAntialiasing(False)
         self.setMouseTracking(True)
-        self.setMinimumHeight(48)
+        self._around_px = _CAPTION_PX + (_TIME_AXIS_PX if last else _NO_AXIS_PX)
+        self.setMinimumHeight(self._around_px + _LEAST_PX)
         plot = self.getPlotItem()
         # pyqtgraph makes this menu all the same, as a window of nobody's: it has to go with the panel.
         plot.ctrlMenu.setParent(self, plot.ctrlMenu.windowFlags())
-        plot.setContentsMargins(0, 8, 16, 0)
+        plot.setContentsMargins(0, _CAPTION_PX, 16, 0)
         plot.getViewBox().setDefaultPadding(0.0)
         plot.getViewBox().disableAutoRange()
         plot.setXRange(-span_s, 0.0, padding=0.0)
@@ -202,7 +207,7 @@ class _Panel(pg.PlotWidget):  # type: ignore[misc]
         axes["bottom"].setTickSpacing(10.0, 10.0)
         axes["left"].setWidth(_LEFT_AXIS_PX)
         axes["bottom"].setStyle(showValues=last)
-        axes["bottom"].setHeight(24 if last else 4)
+        axes["bottom"].setHeight(_TIME_AXIS_PX if last else _NO_AXIS_PX)
         self._curves = [pg.PlotCurveItem(skipFiniteCheck=True, antialias=False) for _ in spec.channels]
         for curve in self._curves:
             curve.setVisible(False)
@@ -215,8 +220,7 @@ class _Panel(pg.PlotWidget):  # type: ignore[misc]
             axis.setCacheMode(QGraphicsItem.CacheMode.DeviceCoordinateCache)
         self._caption = Label(tone="muted")
         self._caption.setParent(self)
-        self._caption.setProperty("plate", True)
-        self._caption.move(_LEFT_AXIS_PX + 4, 10)
+        self._caption.move(_LEFT_AXIS_PX, 0)
         self._dress()
 
     def set_caption(self, caption: str) -> None:
@@ -224,11 +228,14 @@ class _Panel(pg.PlotWidget):  # type: ignore[misc]
         self._caption.adjustSize()
 
     def _fit(self) -> None:
-        lines = max(2, min(4, self.height() // _TICK_PX))
-        step = nice_step(self._range.high - self._range.low, lines)
+        room = max(_LEAST_PX, self.height() - self._around_px)
+        lines = max(2, min(4, room // _TICK_PX))
+        step = tick_step(self._range.low, self._range.high, lines)
         self._axes["left"].setTickSpacing(step, step)
         # Room for half a line of text, else the outermost numbers are left out.
-        self.setYRange(self._range.low, self._range.high, padding=_PADDING)
+        self.setYRange(
+            self._range.low, self._range.high, padding=max(_PADDING, 0.5 * _LINE_PX / (room - _LINE_PX))
+        )
 
     def _dress(self) -> None:
         look = tokens()

@@ -21,6 +21,17 @@ def nice_step(span: float, divisions: int = 4) -> float:
     return 10.0 * power
 
 
+def tick_step(low: float, high: float, divisions: int) -> float:
+    """:func:`nice_step`, or the next smaller one of which two multiples lie within the range: one number
+    alone gives no scale."""
+    while divisions < 64:
+        step = nice_step(high - low, divisions)
+        if math.floor(high / step + 1e-9) - math.ceil(low / step - 1e-9) >= 1:
+            return step
+        divisions *= 2
+    return nice_step(high - low, divisions)
+
+
 def nice_range(low: float, high: float, smallest: float) -> tuple[float, float]:
     """Whole steps around the data, at least ``smallest`` wide."""
     if high - low < smallest:

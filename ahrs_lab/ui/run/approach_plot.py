@@ -49,7 +49,7 @@ class ApproachPlot(QWidget):
         painter.setFont(font())
         painter.setPen(look.colour("muted"))
         foot = QRectF(area.left(), area.bottom() + 1, area.width(), _FOOT_PX)
-        painter.drawText(foot, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, "0:00")
+        painter.drawText(foot, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, "0 s")
         painter.drawText(
             foot, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, duration(self._duration_s)
         )

@@ -6,7 +6,7 @@ from __future__ import annotations
 from PySide6.QtCore import Signal
 
 from ahrs_lab.instruments.by_hand import Felt, HandRequest
-from ahrs_lab.ui.formatting import number
+from ahrs_lab.ui.formatting import number, unbroken
 from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.run import hand_words
 from ahrs_lab.ui.run.model import RunModel
@@ -50,7 +50,7 @@ class HandView(Translated):
         self._show_felt(request, model.felt)
         why = model.hand_refused
         self.refusal.setVisible(why is not None and not model.confirmed)
-        self._why.setText(said(why) if why is not None else "")
+        self._why.setText(unbroken(said(why)) if why is not None else "")
         asked = model.state == "waiting"
         if model.confirmed and self.window().focusWidget() is self.button:
             # Else Qt hands the keyboard to the next button, and another press of the space bar presses that.

@@ -80,7 +80,11 @@ class ReadingsCard(Card):
     def _refresh_times(self, model: RunModel) -> None:
         reading, free_s = model.seen, model.free_s
         self.times.set_value("step", duration(model.step_left_s) if model.live else DASH)
-        self.times.set_value("mounting", duration(free_s))
+        asked = model.state == "waiting" and model.phase in ("mount", "hand") and not model.confirmed
+        if asked:
+            self.times.set_value("mounting", self.tr("now"), "accent")
+        else:
+            self.times.set_value("mounting", duration(free_s))
         self.times.set_value("run", duration(reading.remaining_s) if reading else DASH)
         self.free.setVisible(free_s is not None)
         if free_s is None:

@@ -143,7 +143,7 @@ class StepsList(QWidget):
         time = (
             ""
             if line is not None and line.shown_s <= 0
-            else duration(line.shown_s if line else group.shown_s)
+            else duration(line.shown_s if line else group.shown_s, short=True)
         )
         time_width = QFontMetrics(font()).horizontalAdvance(time) + 8
         text_rect = QRectF(left + 24, top, self.width() - left - 24 - time_width, _ROW_PX)

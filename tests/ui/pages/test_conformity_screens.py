@@ -24,6 +24,7 @@ from ahrs_lab.metrology.result import Uncertainty
 from ahrs_lab.ui.pages.jobs.editor import draft_of
 from ahrs_lab.ui.pages.jobs.limits_model import LimitTexts, limit_of_texts, texts_of
 from ahrs_lab.ui.pages.results.limit_bar import limit_bar
+from ahrs_lab.ui.widgets import Label
 from tests.ui.clipped_text import clipped_texts, outside
 from tests.ui.pages.conftest import Screens
 
@@ -190,7 +191,10 @@ def test_a_limit_that_is_none_is_said_and_not_saved(screens: Screens, qtbot: QtB
     editor.limits.lines[1].high.line.clear()
     QTest.keyClicks(editor.limits.lines[1].high.line, "ten")
     assert not editor.save()
-    assert "“ten” is not a number." in screens.notices[-1][1]
+    assert "“ten” is not a number." in [label.text() for label in editor.limits.findChildren(Label)]
+    assert screens.notices == []
+    qtbot.waitUntil(lambda: "A limit is not right: see the tab Limits." in editor.before_run.texts())
+    assert not editor.start_button.isEnabled()
     assert requirements_from_json(screens.laboratory.job(number).limits_json).limits == LIMITS
 
 

@@ -164,3 +164,8 @@ def test_a_text_that_is_no_bench_is_refused() -> None:
         bench_model.look_at("kind = [")
     with pytest.raises(InputError):
         bench_model.faults_of("= 3")
+
+
+def test_nobody_signs_before_a_repeated_run_is_finished() -> None:
+    places = signing_places(job("1", "running"), [], OPERATOR)
+    assert [place.turn for place in places] == ["unmeasured"] * 3

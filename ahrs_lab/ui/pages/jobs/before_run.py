@@ -18,13 +18,15 @@ from ahrs_lab.ui.widgets import Card, Label, Panel
 
 @dataclass(frozen=True)
 class Readiness:
-    """All that the list shows. ``plan_ok`` False: the plan cannot be run and says so at its field."""
+    """All that the list shows. ``plan_ok`` False: the plan cannot be run and says so at its field.
+    ``limits``: why the limits cannot be stored, None where they can."""
 
     missing: tuple[Missing, ...]
     violations: tuple[Message, ...]
     plan_ok: bool
     deviations: tuple[Message, ...]
     estimate: Estimate | None
+    limits: Message | None = None
 
 
 class BeforeRunCard(Card):
@@ -86,6 +88,8 @@ class BeforeRunCard(Card):
         words = self._missing_words()
         lines: list[QWidget] = [IconLine("bad", words[key]) for key in found.missing]
         lines += [IconLine("bad", said(message)) for message in found.violations]
+        if found.limits is not None:
+            lines.append(IconLine("bad", self.tr("A limit is not right: see the tab Limits.")))
         if not found.plan_ok:
             lines.append(IconLine("bad", self.tr("The plan cannot be run as it stands: see the tab Plan.")))
         lines += [IconLine("warn", said(message)) for message in found.deviations]

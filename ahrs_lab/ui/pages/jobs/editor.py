@@ -210,19 +210,20 @@ class JobEditor(Translated):
         found = self.plan.view()
         limits = self.bench.limits
         runnable = found.runnable and found.plan is not None
-        self.before_run.show_readiness(
-            Readiness(
-                missing=checks.missing(draft),
-                violations=checks.clause6(draft, self._desk.laboratory.standards()),
-                plan_ok=runnable,
-                deviations=found.deviations if runnable else (),
-                estimate=(
-                    checks.estimate(found.plan, limits)
-                    if runnable and found.plan and limits is not None
-                    else None
-                ),
-            )
+        readiness = Readiness(
+            missing=checks.missing(draft),
+            violations=checks.clause6(draft, self._desk.laboratory.standards()),
+            plan_ok=runnable,
+            deviations=found.deviations if runnable else (),
+            estimate=(
+                checks.estimate(found.plan, limits)
+                if runnable and found.plan and limits is not None
+                else None
+            ),
+            limits=self.limits.refusal(),
         )
+        self.before_run.show_readiness(readiness)
+        self.start_button.setEnabled(readiness.limits is None)
 
     # actions --------------------------------------------------------------------------------------------
 
@@ -235,8 +236,8 @@ class JobEditor(Translated):
         laboratory = self._desk.laboratory
         wrong = self.limits.refusal()
         if wrong is not None:
+            # The form says it already, where it can be mended.
             self.tabs.setCurrentIndex(self._forms.index(self.limits))
-            self._desk.workspace.notice("warn", wrong)
             return False
         try:
             if self._job is None:

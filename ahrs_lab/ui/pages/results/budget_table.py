@@ -34,7 +34,7 @@ class BudgetTable(TextTable):
     edits u(x)."""
 
     def __init__(self) -> None:
-        super().__init__(compact=True)
+        super().__init__(compact=True, two_lines=True)
         self.setItemDelegateForColumn(_NUMBER_COLUMN, _NumberDelegate(self))
         self.setItemDelegateForColumn(_SHARE_COLUMN, _ShareDelegate(self))
         self.opened.connect(self.edit_key)

@@ -17,9 +17,9 @@ from ahrs_lab.ui.pages.results.what_if_model import WhatIfModel, degrees_of_free
 from ahrs_lab.ui.pages.results.what_if_strip import WhatIfStrip
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.translation import said
-from ahrs_lab.ui.widgets import ElidedLabel, Line, QuietButton
+from ahrs_lab.ui.widgets import Line, LoweredLabel, QuietButton
 
-_CHECK_PX = 352
+_CHECK_PX = 288
 
 
 class BudgetView(Translated):
@@ -54,7 +54,7 @@ class BudgetView(Translated):
         column.setSpacing(GAP)
         head = QHBoxLayout()
         head.setSpacing(0)
-        self._sum = ElidedLabel(role="strong")
+        self._sum = LoweredLabel(role="strong")
         self.ask_button = QuietButton(icon="edit")
         self.ask_button.clicked.connect(self._ask)
         self.save_button = QuietButton(icon="export")
@@ -108,23 +108,24 @@ class BudgetView(Translated):
         if self._quantity is None or self._unit is None:
             return
         found, before = self._model.uncertainty, self._quantity.uncertainty
-        self._sum.setText(self._sum_line(self._quantity, before, self._unit))
+        self._sum.set_marked(self._sum_line(self._quantity, before, self._unit))
         self.table.show_budget(found, before, self._unit)
         if self._model.changes:
             label = "" if self._unit.label == "1" else f" {self._unit.label}"
             factor = abs(self._unit.factor)
-            self.strip.say(
-                f"{significant(found.expanded * factor)}{label}",
-                f"{significant(before.gum_expanded * factor)}{label}",
-                number(found.coverage_factor, 2),
-            )
+            now, was = (f"{significant(U * factor)}{label}" for U in (found.expanded, before.gum_expanded))
+            k = number(found.coverage_factor, 2)
+            if now == was:
+                self.strip.say_unchanged(now, k)
+            else:
+                self.strip.say(now, was, k)
 
     def _sum_line(self, quantity: Quantity, found: Uncertainty, unit: Unit) -> str:
         label = "" if unit.label == "1" else unit.label
         shown = show(quantity, unit)
         method = self.tr("annex A") if found.method == "annex-a" else self.tr("GUM")
         parts = (
-            f"{quantity.symbol}{quantity.index} = {shown.value} ± {shown.expanded} {label}".rstrip(),
+            f"{quantity.symbol}_{{{quantity.index}}} = {shown.value} ± {shown.expanded} {label}".rstrip(),
             f"u = {significant(found.standard * abs(unit.factor))} {label}".rstrip(),
             f"k = {number(found.coverage_factor, 2)}",
             f"ν = {degrees_of_freedom(found.dof)}",

@@ -11,6 +11,7 @@ from ahrs_lab.metrology.result import CalibrationResult, ResultWarning
 from ahrs_lab.ui.formatting import number
 from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.widgets.icon_line import IconLine
+from ahrs_lab.ui.pages.words import listed
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Label
@@ -57,7 +58,7 @@ class FindingsView(Translated):
             self._line("info", said(deviation))
         if raised:
             self._head(self.tr("Expanded uncertainty"))
-            keys = ", ".join(key.replace("_", "") for key in raised)
+            keys = listed(key.replace("_", "") for key in raised)
             self._line(
                 "info",
                 self.tr(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
 
+from ahrs_lab.certificates.wording import MEANING_OF_B
 from ahrs_lab.metrology.result import (
     CalibrationResult,
     MisalignmentResult,
@@ -17,13 +18,13 @@ from ahrs_lab.metrology.result import (
 from ahrs_lab.metrology.uncertainty.budget import shares
 from ahrs_lab.recording.orientation import AXES
 from ahrs_lab.recording.samples import Samples
-from ahrs_lab.ui.formatting import duration, number
+from ahrs_lab.ui.formatting import NO_BREAK_SPACE, number
 from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.results.quantities import Quantity, Unit, show
 from ahrs_lab.ui.pages.widgets.share_bars import ShareBars
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
-from ahrs_lab.ui.translation import said
-from ahrs_lab.ui.widgets import ElidedLabel, IconButton, Label, Line, SegmentedSwitch, Swatch
+from ahrs_lab.ui.translation import language, said
+from ahrs_lab.ui.widgets import ElidedLabel, IconButton, Label, Line, LoweredLabel, SegmentedSwitch, Swatch
 
 if TYPE_CHECKING:
     from ahrs_lab.ui.pages.widgets.plot import Plot
@@ -63,14 +64,16 @@ class PlotView(Translated):
         self._plot_column.setSpacing(2)
         head = QHBoxLayout()
         head.setSpacing(CARD_MARGIN)
-        self._title = Label(role="strong")
-        self._facts = ElidedLabel(tone="muted")
+        self._title = LoweredLabel(role="strong")
+        self._facts = LoweredLabel(tone="muted")
         self.what = SegmentedSwitch([("residuals", ""), ("fit", "")], "residuals")
         self.what.changed.connect(lambda _key: self._draw())
         head.addWidget(self._title)
         head.addWidget(self._facts, 1)
         head.addWidget(self.what)
         self._plot_column.addLayout(head)
+        self.meaning = Label(tone="muted", wrap=True)
+        self._plot_column.addWidget(self.meaning)
         return whole
 
     def _make_raw(self) -> QWidget:
@@ -97,7 +100,7 @@ class PlotView(Translated):
         column = QVBoxLayout(whole)
         column.setContentsMargins(0, 4, 0, 0)
         column.setSpacing(GAP)
-        self._budget_title = ElidedLabel(role="strong")
+        self._budget_title = LoweredLabel(role="strong")
         self._budget_facts = ElidedLabel(tone="muted")
         self._shares = ShareBars()
         column.addWidget(self._budget_title)
@@ -173,7 +176,7 @@ class PlotView(Translated):
         draw_segment(self.raw_plot, samples, self._rate_unit())
 
     def _name(self, quantity: Quantity, unit: Unit) -> None:
-        symbol = f"{quantity.symbol}{quantity.index}"
+        symbol = f"{quantity.symbol}_{{{quantity.index}}}"
         match quantity.source:
             case ScaleFactorResult():
                 title = self.tr("{symbol}: fit and residuals")
@@ -181,13 +184,15 @@ class PlotView(Translated):
                 title = self.tr("{symbol}: positions")
             case MisalignmentResult():
                 title = self.tr("{symbol}: turns in both senses")
-        self._title.setText(title.format(symbol=symbol))
+        self._title.set_marked(title.format(symbol=symbol))
         self.what.setVisible(isinstance(quantity.source, ScaleFactorResult))
+        self.meaning.setVisible(isinstance(quantity.source, ZeroOffsetResult))
+        self.meaning.setText(MEANING_OF_B.zh if language() == "zh" else MEANING_OF_B.en)
         if self.plot is not None:
             hint = self.tr("Click a point to open its raw segment.")
             self.plot.canvas().setToolTip(hint if any(self._segments) else "")
-        self._facts.setText("  ·  ".join(self._further(quantity)))
-        self._budget_title.setText(self.tr("Where U({symbol}) comes from").format(symbol=symbol))
+        self._facts.set_marked("  ·  ".join(self._further(quantity)))
+        self._budget_title.set_marked(self.tr("Where U({symbol}) comes from").format(symbol=symbol))
         shown = show(quantity, unit)
         uncertainty = quantity.uncertainty
         self._budget_facts.setText(
@@ -206,13 +211,15 @@ class PlotView(Translated):
                 return [
                     self.tr("nonlinearity {ppm} ppm").format(ppm=number(scale.nonlinearity_ppm, 1)),
                     self.tr("asymmetry {ppm} ppm").format(ppm=number(scale.asymmetry_ppm, 1)),
-                    f"F0 = {number(scale.F0, 6)}",
+                    f"F_{{0}} = {number(scale.F0, 6)} {self._rate_unit()}",
                 ]
             case ZeroOffsetResult() as offset:
                 facts = [
                     self.tr("band: ± U; circles: B and the Earth's rate"),
                     self.tr("positions: {count}").format(count=len(offset.angles_deg)),
-                    self.tr("T = {time} each").format(time=duration(offset.duration_s)),
+                    self.tr("T = {time} each").format(
+                        time=f"{number(offset.duration_s, 0)}{NO_BREAK_SPACE}s"
+                    ),
                 ]
                 if offset.repeatability_dps is not None:
                     repeat = number(3600.0 * offset.repeatability_dps, 2)

@@ -7,6 +7,7 @@ from PySide6.QtCore import QCoreApplication
 from ahrs_lab.laboratory.judgement import Judged
 from ahrs_lab.metrology.conformity import Conformity, Verdict
 from ahrs_lab.metrology.limits import measured
+from ahrs_lab.ui.pages.words import listed
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets.banner import BannerKind
 
@@ -52,7 +53,7 @@ def _judgement(conformity: Conformity) -> list[str]:
         said(conformity.rule.name()),
     ]
     if conformity.missing:
-        keys = ", ".join(key.replace("_", "") for key in conformity.missing)
+        keys = listed(key.replace("_", "") for key in conformity.missing)
         parts.append(translate("Verdict", "not calibrated: {quantities}").format(quantities=keys))
     return parts
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 
 from ahrs_lab.errors import InputError
@@ -10,6 +11,9 @@ from ahrs_lab.metrology.result import Uncertainty
 from ahrs_lab.metrology.uncertainty.what_if import Change, what_if
 from ahrs_lab.ui.formatting import MINUS, THIN_SPACE, number
 from ahrs_lab.ui.pages.results.quantities import Quantity
+
+_GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+(\.\d*)?")
+"""May be thousands and may be a decimal comma."""
 
 
 class WhatIfModel:
@@ -63,9 +67,14 @@ class WhatIfModel:
 
 
 def _number(text: str) -> float:
-    plain = "".join(text.split()).replace(THIN_SPACE, "").replace(MINUS, "-").replace(",", ".")
+    plain = "".join(text.split()).replace(THIN_SPACE, "").replace(MINUS, "-")
+    if _GROUPED.fullmatch(plain):
+        raise InputError(
+            "“{text}” can be read in two ways: write a decimal point, and thousands without a comma.",
+            text=text.strip()[:40],
+        )
     try:
-        value = float(plain)
+        value = float(plain.replace(",", "."))
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
@@ -83,7 +92,7 @@ def significant(value: float, digits: int = 3) -> str:
     if -4 <= power < 6:
         return number(value, max(0, digits - 1 - power))
     mantissa = number(value / 10.0**power, digits - 1)
-    return f"{mantissa}E{MINUS if power < 0 else ''}{abs(power)}"
+    return f"{mantissa}×10^{MINUS if power < 0 else ''}{abs(power)}"
 
 
 def degrees_of_freedom(dof: float) -> str:

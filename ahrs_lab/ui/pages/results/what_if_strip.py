@@ -42,9 +42,16 @@ class WhatIfStrip(QFrame):
         ).format(expanded=expanded, before=instead_of, k=k)
         self._show("warn", self._asked)
 
+    def say_unchanged(self, expanded: str, k: str) -> None:
+        """U would be the same."""
+        self._asked = self.tr(
+            "What if: U = {expanded} (k = {k}), unchanged. Not the result; nothing is stored."
+        ).format(expanded=expanded, k=k)
+        self._show("warn", self._asked)
+
     def refuse(self, why: str) -> None:
         """What was typed cannot be; what was asked before stands."""
-        self._show("bad", f"{why} {self._asked}".rstrip())
+        self._show("bad", f"{why}\n{self._asked}".rstrip())
 
     def clear(self) -> None:
         """Nothing is asked."""

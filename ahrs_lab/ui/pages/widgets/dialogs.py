@@ -66,6 +66,17 @@ class Question(QDialog):
         self.set_busy(False)
         self._refusal.set_content("bad", "", text)
         self._refusal.setVisible(True)
+        self.fit()
+
+    def fit(self) -> None:
+        """As high as what is said now: wrapped texts do not make room for themselves in a dialog."""
+        layout = self.layout()
+        if layout is None:
+            return
+        layout.activate()
+        needed = max(layout.totalHeightForWidth(self.width()), layout.totalMinimumSize().height())
+        if self.height() < needed:
+            self.resize(self.width(), needed)
 
     def refusal(self) -> str:
         """What is said to be wrong, "" where nothing is."""

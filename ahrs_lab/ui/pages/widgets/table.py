@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent
+from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
 
 from ahrs_lab.ui.theme import font, tokens
@@ -15,6 +15,8 @@ _Index = QModelIndex | QPersistentModelIndex
 _ROW_PX = 32
 _COMPACT_PX = 27
 _PADDING_PX = 26
+_CELL_PX = 24
+"""What a cell keeps free beside its text."""
 
 
 @dataclass(frozen=True)
@@ -122,13 +124,21 @@ def _sort_key(cell: Cell) -> tuple[int, float, str]:
 
 class TextTable(QTableView):
     """Rows have keys. ``opened`` tells the key by double click or Enter, ``chosen`` by moving; ``edited`` the
-    key and what was typed into its editable cell."""
+    key and what was typed into its editable cell. ``two_lines``: the column that takes what is left breaks
+    its texts, and such rows are higher."""
 
     opened = Signal(str)
     chosen = Signal(str)
     edited = Signal(str, str)
 
-    def __init__(self, *, selectable: bool = True, sortable: bool = False, compact: bool = False) -> None:
+    def __init__(
+        self,
+        *,
+        selectable: bool = True,
+        sortable: bool = False,
+        compact: bool = False,
+        two_lines: bool = False,
+    ) -> None:
         super().__init__()
         self._model = _Model()
         self._model.setParent(self)
@@ -136,7 +146,8 @@ class TextTable(QTableView):
         self._sortable = sortable
         self.setModel(self._model)
         self.setShowGrid(False)
-        self.setWordWrap(False)
+        self.setWordWrap(two_lines)
+        self._two_lines = two_lines
         self.verticalHeader().setVisible(False)
         self.verticalHeader().setDefaultSectionSize(_COMPACT_PX if compact else _ROW_PX)
         self.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
@@ -227,6 +238,24 @@ class TextTable(QTableView):
             header.setSectionResizeMode(number, QHeaderView.ResizeMode.Interactive)
             width = max(widths) + _PADDING_PX + (12 if self._sortable else 0)
             self.setColumnWidth(number, max(width, column.least))
+        self._fit_rows()
+
+    def _fit_rows(self) -> None:
+        """Higher rows where a text does not stand in one line of the column that takes what is left."""
+        header = self.verticalHeader()
+        stretched = [place for place, column in enumerate(self._model.columns) if column.stretch]
+        if not self._two_lines or not stretched:
+            return
+        (place,) = stretched
+        metrics = self.fontMetrics()
+        room = self.columnWidth(place) - _CELL_PX
+        for row, cells in enumerate(self._model.rows):
+            long = metrics.horizontalAdvance(cells[place].text) > room
+            header.resizeSection(row, header.defaultSectionSize() + (metrics.lineSpacing() if long else 0))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit_rows()
 
     def _moved(self, current: QModelIndex, _previous: QModelIndex) -> None:
         if current.isValid():

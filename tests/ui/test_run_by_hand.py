@@ -103,7 +103,9 @@ class Operator:
 
     def text(self) -> str:
         self.look.settle()
-        return "\n".join(label.text() for label in self.page.findChildren(Label) if label.isVisible())
+        texts = (label.text() for label in self.page.findChildren(Label) if label.isVisible())
+        # What only keeps a line from ending there is left out.
+        return "\n".join(texts).replace("\u00a0", " ").replace("\u2060", "")
 
 
 @pytest.fixture

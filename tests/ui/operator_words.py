@@ -144,7 +144,7 @@ ZH = Words(
     password="密码",
     sign_in="登录",
     sign="签名",
-    password_of="{name} 的密码",
+    password_of="{name}的密码",
     signed="已签名",
     intact="完整，自最后一次签名后未被改动",
     verify_again="重新验证",
@@ -175,7 +175,7 @@ ZH = Words(
     known=frozenset(
         re.findall(
             r"\S+",
-            "JJF JCGM ILAC AHRS GUM CSV Esc pdf ppm rad English DEMO zero_offset.duration_s "
+            "min JJF JCGM ILAC AHRS GUM CSV Esc pdf ppm rad English DEMO zero_offset.duration_s "
             "Lyx Lzx Lxy Lzy Lxz Lyz",
         )
     ),

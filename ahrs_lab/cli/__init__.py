@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import NoReturn
 
 import ahrs_lab
+from ahrs_lab.cli.analysis import commands as analysis_commands
 from ahrs_lab.errors import AhrsLabError
 
 INTERRUPTED = 130
@@ -148,6 +149,9 @@ def _parser() -> argparse.ArgumentParser:
     replay.add_argument("--rate", type=float, metavar="HZ", help="sample rate where the device sends no time")
     replay.add_argument("--latitude", type=float, default=0.0, metavar="DEG", help="of the bench, for --out")
     replay.add_argument("--out", type=Path, metavar="BUNDLE", help="write the samples as a recording")
+
+    for analysis in analysis_commands():
+        analysis.options(command(analysis.NAME, analysis.HELP))
     return parser
 
 

@@ -8,6 +8,7 @@ import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from ahrs_lab.cli.analysis import commands as analysis_commands
 from ahrs_lab.cli.progress import ProgressLine
 from ahrs_lab.cli.stop_signals import stop_signals
 from ahrs_lab.errors import InputError
@@ -28,6 +29,9 @@ def run(arguments: argparse.Namespace) -> int:
     """The command of ``arguments``; None opens the application."""
     if arguments.command is None:
         return _application(language=None, speed=1.0, demonstration=False)
+    for analysis in analysis_commands():
+        if arguments.command == analysis.NAME:
+            return analysis.run(arguments)
     return int(_COMMANDS[arguments.command](arguments))
 
 

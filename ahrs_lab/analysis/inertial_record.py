@@ -1,0 +1,160 @@
+"""A recording as the mathematics takes it: SI units, one row an interval, gaps known.
+
+``InertialRecord`` is made from a segment of a bundle. Rates become rad/s, specific forces m/s²; a unit that
+counts (``LSB``) is left in counts. :func:`unit_doubts` says when the header's unit cannot be true.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import radians
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ahrs_lab.errors import InputError
+from ahrs_lab.inertial.earth import STANDARD_GRAVITY_MPS2, normal_gravity_mps2
+from ahrs_lab.messages import Message
+from ahrs_lab.recording.read import RecordedSegment, Recording
+from ahrs_lab.recording.samples import ACCEL, GAP_STEPS, GYRO, Samples, interval_s
+from ahrs_lab.recording.segment import RecordingHeader, Segment
+
+Array = NDArray[np.float64]
+
+TO_RADPS = {"deg/s": radians(1.0), "rad/s": 1.0, "LSB": 1.0}
+TO_MPS2 = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2, "LSB": 1.0}
+
+
+@dataclass(frozen=True)
+class InertialRecord:
+    """n rows of one segment.
+
+    ``t_s`` (n,) end of each row's interval; ``interval_s`` (n,); ``rate`` (n, 3) mean angular rate, rad/s
+    (counts where ``header.device.rate_unit`` is LSB); ``force`` (n, 3) mean specific force, m/s² or counts,
+    None where the device gives none; ``gaps`` (m,) indices of rows before which samples are missing;
+    ``samples`` holds every column as recorded.
+    """
+
+    header: RecordingHeader
+    segment: Segment
+    t_s: Array
+    interval_s: Array
+    rate: Array
+    force: Array | None
+    gaps: NDArray[np.int64]
+    samples: Samples
+    warnings: tuple[Message, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.t_s)
+
+    @property
+    def angle_increments_rad(self) -> Array:
+        """Shape (n, 3): rate times interval."""
+        return self.rate * self.interval_s[:, np.newaxis]
+
+    def needed_force(self) -> Array:
+        """``force``; raises InputError where there is none."""
+        if self.force is None:
+            raise InputError(
+                "{file}: the recording has no accelerometer columns (accel_x, accel_y, accel_z), "
+                "which this analysis needs.",
+                file=self.segment.file,
+            )
+        return self.force
+
+    def velocity_increments_mps(self) -> Array:
+        """Shape (n, 3): specific force times interval."""
+        return self.needed_force() * self.interval_s[:, np.newaxis]
+
+    def needed_si(self) -> InertialRecord:
+        """This record; raises InputError where it counts, or where its units cannot be true."""
+        device = self.header.device
+        if "LSB" in (device.rate_unit, device.accel_unit):
+            raise InputError(
+                "{file} is in counts (LSB): apply the unit's calibration set first with "
+                "“ahrs-lab compensate”.",
+                file=self.segment.file,
+            )
+        doubts = unit_doubts(self)
+        if doubts:
+            raise InputError("{file}: {what}", file=self.segment.file, what=doubts[0])
+        return self
+
+
+def records(recording: Recording, file: str | None = None) -> tuple[InertialRecord, ...]:
+    """The usable segments of ``recording`` in their order, or the one with this ``file`` (or name).
+
+    Raises InputError where there is none.
+    """
+    chosen = [s for s in recording.segments if file is None or file in (s.segment.file, s.segment.name)]
+    if file is not None and not chosen:
+        raise InputError(
+            "The recording has no segment {file}; there are: {known}.",
+            file=file,
+            known=", ".join(s.segment.file for s in recording.segments),
+        )
+    found = tuple(inertial_record(recording.header, one) for one in chosen if one.usable)
+    if not found:
+        what = next((f.placed for s in chosen for f in s.findings if f.severity == "unusable"), None)
+        raise InputError(
+            "No segment of the recording can be used: {what}",
+            what=what if what is not None else Message("each was recorded again or interrupted."),
+        )
+    return found
+
+
+def inertial_record(header: RecordingHeader, recorded: RecordedSegment) -> InertialRecord:
+    """One segment in SI units.
+
+    Raises InputError where a gyro column is missing.
+    """
+    samples, device = recorded.samples, header.device
+    missing = [name for name in GYRO if name not in samples]
+    if missing:
+        raise InputError(
+            "{file} has no column {missing}: an inertial analysis needs the gyros.",
+            file=recorded.segment.file,
+            missing=", ".join(missing),
+        )
+    interval = interval_s(samples, device.sample_rate_hz)
+    force = None
+    if all(name in samples for name in ACCEL):
+        force = samples.matrix(ACCEL) * TO_MPS2[device.accel_unit]
+    return InertialRecord(
+        header=header,
+        segment=recorded.segment,
+        t_s=samples["t_s"],
+        interval_s=interval,
+        rate=samples.matrix(GYRO) * TO_RADPS[device.rate_unit],
+        force=force,
+        gaps=np.flatnonzero(interval > GAP_STEPS / device.sample_rate_hz),
+        samples=samples,
+        warnings=tuple(finding.placed for finding in recorded.findings),
+    )
+
+
+def unit_doubts(record: InertialRecord) -> tuple[Message, ...]:
+    """Sentences that say which unit a column seems to be in, instead of the header's; none where all fits.
+
+    The median specific force has to lie within a factor 2 of gravity.
+    """
+    header = record.header
+    unit = header.device.accel_unit
+    if record.force is None or unit == "LSB" or not len(record):
+        return ()
+    gravity = float(normal_gravity_mps2(header.site.latitude_deg, header.site.altitude_m))
+    shown = float(np.median(np.linalg.norm(record.force, axis=1))) / TO_MPS2[unit]
+    like = [u for u, factor in TO_MPS2.items() if u != "LSB" and 0.5 <= shown * factor / gravity <= 2.0]
+    if unit in like:
+        return ()
+    return (
+        Message(
+            "the accelerometers show {shown} {unit}, but gravity is {gravity} m/s²: these look like "
+            "{likely}; correct accel_unit in recording.toml.",
+            shown=f"{shown:.4g}",
+            unit=unit,
+            gravity=f"{gravity:.4f}",
+            likely=like[0] if like else Message("counts (LSB)"),
+        ),
+    )

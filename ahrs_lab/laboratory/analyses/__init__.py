@@ -1,0 +1,11 @@
+"""The analyses that the house offers, in the order of the textbook: one module each, its ``KIND`` is listed
+here."""
+
+from __future__ import annotations
+
+from ahrs_lab.laboratory.analyses.kinds import AnalysisKind
+
+
+def analyses() -> tuple[AnalysisKind, ...]:
+    """All of them; imported when asked for."""
+    return ()

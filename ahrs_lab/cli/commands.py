@@ -49,9 +49,7 @@ def _application(*, language: str | None, speed: float | None, demonstration: bo
         with ThreadPoolExecutor(1) as beside:
             prepared = beside.submit(laboratory.open_demo) if demonstration else None
             import ahrs_lab.ui.main_window
-            import ahrs_lab.ui.pages.all_pages
-            import ahrs_lab.ui.pages.instruments.page
-            import ahrs_lab.ui.run.page  # noqa: F401
+            import ahrs_lab.ui.pages.all_pages  # noqa: F401
             from ahrs_lab.ui.application import run_application
         operator = prepared.result() if prepared is not None else None
         return run_application(

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from scipy.special import stdtr
+import scipy
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
@@ -192,8 +192,8 @@ def conformance_probability(
 
 def _beyond(value: float, standard: float, dof: float, low: float | None, high: float | None) -> float:
     """Both tails; a small risk keeps its digits, which 1 − (1 − risk) would lose."""
-    below = 0.0 if low is None else float(stdtr(dof, (low - value) / standard))
-    above = 0.0 if high is None else float(stdtr(dof, (value - high) / standard))
+    below = 0.0 if low is None else float(scipy.special.stdtr(dof, (low - value) / standard))
+    above = 0.0 if high is None else float(scipy.special.stdtr(dof, (value - high) / standard))
     return min(below + above, 1.0)
 
 

@@ -1,7 +1,7 @@
 """The application: one event loop around one window, and what has to hold while it runs.
 
-Imports of pages and plots come after the first look at the arguments, so that the window is there within
-1.5 s.
+The window opens with its first page alone, so that it is there within 1.5 s; the other pages are made when
+they are asked for, or while nobody asks for anything.
 """
 
 from __future__ import annotations
@@ -59,6 +59,7 @@ def run_application(
     keeper.parent_window = screen.window
     screen.window.show()
     collector = GuiCollector(app)
+    screen.window.make_pages_when_idle()
     try:
         return app.exec()
     finally:
@@ -85,38 +86,24 @@ class Screen:
         self._laboratory = laboratory
         self.theme = ThemeSwitch(app, settings.theme)
         self.language = LanguageSwitch(app, "zh" if (language or settings.language) == "zh" else "en")
-        # Late: they bring the plots, half a second of imports.
         from ahrs_lab.ui.main_window import MainWindow
+        from ahrs_lab.ui.pages.all_pages import page_entries
         from ahrs_lab.ui.pages.desk import Desk
         from ahrs_lab.ui.workspace import Workspace
 
         self.workspace: Workspace = Workspace(laboratory, settings, speed=speed)
         self.desk: Desk = Desk(self.workspace, self.workspace)
         self.window: MainWindow = MainWindow(self.workspace, theme=settings.theme)
-        self._add_pages()
-        self.window.context.theme_chosen.connect(self.choose_theme)
-        self.window.context.language_chosen.connect(self.choose_language)
+        for entry in page_entries(self.desk):
+            self.window.add_entry(entry)
+        for chooser in (self.window.context, self.workspace):
+            chooser.theme_chosen.connect(self.choose_theme)
+            chooser.language_chosen.connect(self.choose_language)
         self.window.context.set_demonstration(demo)
         if demo and operator is None:
             operator = laboratory.open_demo()
         if operator is not None:
             self.desk.sign_in(operator)
-
-    def _add_pages(self) -> None:
-        from ahrs_lab.ui.pages.all_pages import make_pages
-        from ahrs_lab.ui.pages.instruments.page import InstrumentsPage
-        from ahrs_lab.ui.pages.setup import SetupPage
-        from ahrs_lab.ui.run.page import RunPage
-
-        pages = list(make_pages(self.desk))
-        pages.insert(2, RunPage(self.workspace, self.desk.resume_run, self.desk.repeat_segment))
-        self.instruments = InstrumentsPage(self.desk)
-        pages.insert(-1, self.instruments)
-        for page in pages:
-            self.window.add_page(page)
-            if isinstance(page, SetupPage):
-                page.theme_chosen.connect(self.choose_theme)
-                page.language_chosen.connect(self.choose_language)
 
     def choose_theme(self, mode: str) -> None:
         """Switch and remember."""
@@ -142,7 +129,7 @@ class Screen:
     def close(self) -> None:
         """Nothing of the screen works on after this."""
         self.workspace.run.close()
-        self.instruments.close_session()
+        self.workspace.closing.emit()
         self.desk.close()
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QRectF, Qt
+from PySide6.QtCore import QEvent, QRectF, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QIcon, QKeySequence, QPainter, QPixmap, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
 
@@ -12,7 +12,7 @@ from ahrs_lab.ui.frame.context_bar import ContextBar
 from ahrs_lab.ui.frame.health_strip import HealthStrip
 from ahrs_lab.ui.frame.navigation_rail import NavigationRail, paint_emblem
 from ahrs_lab.ui.frame.stop_bar import StopBar
-from ahrs_lab.ui.page import Page
+from ahrs_lab.ui.page import Page, PageEntry, page_title
 from ahrs_lab.ui.theme import CARD_MARGIN, ThemeMode
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Banner
@@ -20,10 +20,11 @@ from ahrs_lab.ui.workspace import Workspace
 
 SMALLEST = (1024, 680)
 FIRST_SIZE = (1366, 768)
+IDLE_MS = 150
 
 
 class MainWindow(QWidget):
-    """Pages in the order in which they are added."""
+    """Pages in the order in which they are added. ``pages`` holds those that are made already."""
 
     def __init__(self, workspace: Workspace, *, theme: ThemeMode = "system") -> None:
         super().__init__()
@@ -32,6 +33,9 @@ class MainWindow(QWidget):
         self.setMinimumSize(*SMALLEST)
         self.resize(*FIRST_SIZE)
         self.pages: dict[str, Page] = {}
+        self._entries: dict[str, PageEntry] = {}
+        self._idle = QTimer(self, interval=IDLE_MS)
+        self._idle.timeout.connect(self._make_idly)
         self.rail = NavigationRail()
         self.context = ContextBar(workspace, theme)
         self.notice = Banner(closable=True)
@@ -44,6 +48,7 @@ class MainWindow(QWidget):
         self.rail.chosen.connect(self.show_page)
         workspace.page_requested.connect(self.show_page)
         workspace.noticed.connect(self._show_notice)
+        workspace.run_starting.connect(self.make_all_pages)
         for signal in (workspace.run.started, workspace.run.ended):
             signal.connect(self._mark_run)
         escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self)
@@ -72,17 +77,48 @@ class MainWindow(QWidget):
         column.addWidget(self.stop_bar)
 
     def add_page(self, page: Page) -> None:
-        """Register a page; the first one is in front."""
-        self.pages[page.key] = page
-        self.stack.addWidget(page)
-        self.rail.add(page.key, page.icon)
+        """Register a page that is made; the first one is in front."""
+        self.add_entry(PageEntry(page.key, lambda: page))
+        self._make(page.key)
+
+    def add_entry(self, entry: PageEntry) -> None:
+        """Register a page; the first one is made and in front."""
+        self._entries[entry.key] = entry
+        self.rail.add(entry.key)
         self.retranslate()
-        if len(self.pages) == 1:
-            self.show_page(page.key)
+        if len(self._entries) == 1:
+            self.show_page(entry.key)
+
+    def make_next_page(self) -> bool:
+        """Make one page that is not made yet; False where all are."""
+        if not self._entries.keys() - self.pages.keys():
+            return False
+        self._make(next(key for key in self._entries if key not in self.pages))
+        return True
+
+    def make_pages_when_idle(self) -> None:
+        """One page after another while the person looks at the first."""
+        self._idle.start()
+
+    def _make_idly(self) -> None:
+        if not self.make_next_page():
+            self._idle.stop()
+
+    def make_all_pages(self) -> None:
+        """Before a run: each page hears of it from its beginning."""
+        while self.make_next_page():
+            pass
+
+    def _make(self, key: str) -> Page | None:
+        if key not in self.pages and key in self._entries:
+            page = self.pages[key] = self._entries[key].make()
+            self.stack.addWidget(page)
+            page.job_changed()
+        return self.pages.get(key)
 
     def show_page(self, key: str) -> None:
         """Bring it to the front; a key that nobody registered is left alone."""
-        page = self.pages.get(key)
+        page = self._make(key)
         if page is None:
             return
         if page is not self.stack.currentWidget() and self._notice_kind in ("good", "info"):
@@ -101,8 +137,8 @@ class MainWindow(QWidget):
     def retranslate(self) -> None:
         """Set the window's own texts."""
         self.setWindowTitle(self.tr("AHRS Lab: calibration to JJF 1536-2015"))
-        for key, page in self.pages.items():
-            self.rail.buttons[key].setText(page.title())
+        for key, button in self.rail.buttons.items():
+            button.setText(page_title(key))
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
@@ -129,6 +165,7 @@ class MainWindow(QWidget):
         if self.workspace.run.live and not self._stop_to_close():
             event.ignore()
             return
+        self._idle.stop()
         self.workspace.run.close(0.0)
         super().closeEvent(event)
 

@@ -6,7 +6,10 @@ A page is made with the :class:`~ahrs_lab.ui.workspace.Workspace` and registers 
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Qt
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from ahrs_lab.ui.theme import CARD_MARGIN
@@ -28,14 +31,38 @@ class Translated(QWidget):
         super().changeEvent(event)
 
 
-class Page(Translated):
-    """One page of the main window. Subclasses set ``key`` and ``icon`` and give :meth:`title`.
+def page_title(key: str) -> str:
+    """What stands under the icon of the page ``key``, in the language that is on."""
+    translate = QCoreApplication.translate
+    titles = {
+        "start": translate("Page", "Start"),
+        "jobs": translate("Page", "Jobs"),
+        "run": translate("Page", "Run"),
+        "results": translate("Page", "Results"),
+        "certificate": translate("Page", "Certificate"),
+        "analyse": translate("Page", "Analyse"),
+        "bench": translate("Page", "Bench"),
+        "instruments": translate("Page", "Instruments"),
+        "setup": translate("Page", "Set-up"),
+    }
+    return titles.get(key, "")
 
-    ``key`` is what :meth:`Workspace.go_to` takes; ``icon`` a name of :mod:`ahrs_lab.ui.icons`.
+
+@dataclass(frozen=True)
+class PageEntry:
+    """A page on the rail that is made when it is first needed: the window is there before its pages are."""
+
+    key: str
+    make: Callable[[], Page]
+
+
+class Page(Translated):
+    """One page of the main window. Subclasses set ``key``; their title is :func:`page_title`'s.
+
+    ``key`` is what :meth:`Workspace.go_to` takes, and the name of its icon in :mod:`ahrs_lab.ui.icons`.
     """
 
     key = ""
-    icon = ""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
@@ -46,10 +73,6 @@ class Page(Translated):
         # So that no button has the focus before a person gives it one.
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         workspace.job_changed.connect(self.job_changed)
-
-    def title(self) -> str:
-        """What stands under the icon, in the language that is on."""
-        return ""
 
     def job_changed(self) -> None:
         """Another job was chosen, or the chosen one changed: look at ``self.workspace``."""

@@ -67,7 +67,11 @@ class Workspace(QObject):
     """A run is about to take the bench: whoever holds its wires lets them go."""
     run_started = Signal()
     run_ended = Signal()
+    closing = Signal()
+    """The window goes: whoever holds something lets it go."""
     page_requested = Signal(str)
+    theme_chosen = Signal(str)
+    language_chosen = Signal(str)
     noticed = Signal(str, object)
     """kind, Message or str: shown as a banner over the page until it is closed."""
 

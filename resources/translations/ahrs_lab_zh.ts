@@ -441,10 +441,6 @@
 <context>
     <name>CertificatePage</name>
     <message>
-        <source>Certificate</source>
-        <translation>证书</translation>
-    </message>
-    <message>
         <source>Save as</source>
         <translation>另存为</translation>
     </message>
@@ -1878,6 +1874,45 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     </message>
 </context>
 <context>
+    <name>Page</name>
+    <message>
+        <source>Start</source>
+        <translation>首页</translation>
+    </message>
+    <message>
+        <source>Jobs</source>
+        <translation>任务</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>运行</translation>
+    </message>
+    <message>
+        <source>Results</source>
+        <translation>结果</translation>
+    </message>
+    <message>
+        <source>Certificate</source>
+        <translation>证书</translation>
+    </message>
+    <message>
+        <source>Analyse</source>
+        <translation>分析</translation>
+    </message>
+    <message>
+        <source>Bench</source>
+        <translation>台架</translation>
+    </message>
+    <message>
+        <source>Instruments</source>
+        <translation>仪器</translation>
+    </message>
+    <message>
+        <source>Set-up</source>
+        <translation>设置</translation>
+    </message>
+</context>
+<context>
     <name>PartRow</name>
     <message>
         <source>Settings of this instrument</source>
@@ -2540,10 +2575,6 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
 <context>
     <name>ResultsPage</name>
     <message>
-        <source>Results</source>
-        <translation>结果</translation>
-    </message>
-    <message>
         <source>Save as</source>
         <translation>另存为</translation>
     </message>
@@ -2669,13 +2700,6 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Enter</source>
         <translation>录入</translation>
-    </message>
-</context>
-<context>
-    <name>RunPage</name>
-    <message>
-        <source>Run</source>
-        <translation>运行</translation>
     </message>
 </context>
 <context>
@@ -3079,10 +3103,6 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
 </context>
 <context>
     <name>StartPage</name>
-    <message>
-        <source>Start</source>
-        <translation>首页</translation>
-    </message>
     <message>
         <source>No jobs yet</source>
         <translation>尚无任务</translation>

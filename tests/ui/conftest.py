@@ -64,16 +64,9 @@ def close_run(workspace: Workspace) -> None:
     workspace.run.close(0.0)
 
 
-class PlainPage(Page):
-    """An empty page."""
-
-    def title(self) -> str:
-        return self.key.title()
-
-
 def plain_page(workspace: Workspace, key: str) -> Page:
     """A page that only has its place in the rail."""
-    made = type("PlainPage_" + key, (PlainPage,), {"key": key, "icon": key})(workspace)
+    made = type("PlainPage_" + key, (Page,), {"key": key})(workspace)
     assert isinstance(made, Page)
     return made
 

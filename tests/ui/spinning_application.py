@@ -70,13 +70,14 @@ def spin() -> Iterator[Callable[[], bool]]:
     from ahrs_lab.ui.main_window import MainWindow
     from ahrs_lab.ui.pages.instruments.page import InstrumentsPage
 
-    yield lambda: found(MainWindow) is not None and found(InstrumentsPage) is not None
-    window, page = found(MainWindow), found(InstrumentsPage)
+    yield lambda: found(MainWindow) is not None
+    window = found(MainWindow)
     assert window is not None
-    assert page is not None
     yield window.isVisible
     window.activateWindow()
     window.show_page("instruments")
+    page = found(InstrumentsPage)
+    assert page is not None
     yield lambda: page.isVisible() and page.rows["table"].there
     left = Qt.MouseButton.LeftButton
     QTest.mouseClick(page.rows["table"].action, left)

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import gammaincinv
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.diagnosis.model import AllanDiagnosis, DiagnosisFinding, FloorVerdict
@@ -64,7 +64,7 @@ def equivalent_dof(points: int, factor: int, noise: str) -> float:
 def confidence_limits(variance: float, dof: float) -> tuple[float, float]:
     """Of the deviation, by χ² at 95 %."""
     tail = 0.5 * (1.0 - CONFIDENCE)
-    high, low = (2.0 * float(gammaincinv(0.5 * dof, p)) for p in (tail, 1.0 - tail))
+    high, low = (2.0 * float(scipy.special.gammaincinv(0.5 * dof, p)) for p in (tail, 1.0 - tail))
     return math.sqrt(variance * dof / low), math.sqrt(variance * dof / high)
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import chdtrc, fdtrc, ndtr, stdtr, stdtrit
 
 from ahrs_lab.metrology.diagnosis.model import Change
 
@@ -22,20 +22,22 @@ _ROUNDING = 1e-12
 
 def two_sided(t: float, dof: float) -> float:
     """Probability of a larger |t| by chance."""
-    return float(2.0 * (ndtr(-abs(t)) if math.isinf(dof) else stdtr(dof, -abs(t))))
+    return float(
+        2.0 * (scipy.special.ndtr(-abs(t)) if math.isinf(dof) else scipy.special.stdtr(dof, -abs(t)))
+    )
 
 
 def f_tail(F: float, dof_above: float, dof_below: float) -> float:
     """Probability of a larger F by chance; ``dof_below`` may be infinite."""
     if math.isinf(dof_below):
-        return float(chdtrc(dof_above, F * dof_above))
-    return float(fdtrc(dof_above, dof_below, F))
+        return float(scipy.special.chdtrc(dof_above, F * dof_above))
+    return float(scipy.special.fdtrc(dof_above, dof_below, F))
 
 
 def outlier_limit(count: int, dof: int, level: float) -> float:
     """Of an externally studentised residual: the largest of ``count`` exceeds it by chance with ``level`` at
     most (Bonferroni). For residuals from a mean that is Grubbs' test."""
-    return float(-stdtrit(dof, level / (2.0 * count)))
+    return float(-scipy.special.stdtrit(dof, level / (2.0 * count)))
 
 
 def studentised(design: Array, values: Array, spread: Array) -> tuple[Array, int]:

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import chdtrc
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.diagnosis.model import Change, DiagnosisFinding, Harmonic, Residuals, state_of
@@ -132,7 +132,7 @@ def _scatter_finding(found: Residuals) -> list[DiagnosisFinding]:
     scatter = math.sqrt(math.fsum(v * v for v in found.residuals) / found.dof)
     if noise <= 1e-9 * EARTH_RATE_DPS:
         return []
-    p = float(chdtrc(found.dof, found.dof * (scatter / noise) ** 2))
+    p = float(scipy.special.chdtrc(found.dof, found.dof * (scatter / noise) ** 2))
     numbers = {"scatter": figures(_DPH * scatter), "noise": figures(_DPH * noise)}
     if state_of(p) == "fine":
         what = Message(

@@ -14,8 +14,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import ndtri, stdtrit
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
@@ -157,7 +157,9 @@ def effective_dof(
 def coverage_factor(dof: float, probability: float = PROBABILITY) -> float:
     """Two-sided t quantile (JCGM 100, G.3); fractional degrees of freedom are not cut."""
     upper = 0.5 * (1.0 + probability)
-    return float(stdtrit(dof, upper)) if math.isfinite(dof) else float(ndtri(upper))
+    return (
+        float(scipy.special.stdtrit(dof, upper)) if math.isfinite(dof) else float(scipy.special.ndtri(upper))
+    )
 
 
 def scale_of(uncertainty: Uncertainty) -> float:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import chdtri
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import (
@@ -180,7 +180,7 @@ def unexplained_scatter(fit: ScaleFactorFit, evidence: ScaleFactorEvidence) -> t
     drift, _ = drift_variance(contrasts, evidence.starts_s, evidence.durations_s, evidence.noise)
     own = evidence.standard_errors**2 + evidence.unseen_variances[:-2]
     expected = float(np.sum(contrasts**2 @ own)) + drift
-    if scatter <= expected * float(chdtri(freedom, SIGNIFICANCE)) / freedom:
+    if scatter <= expected * float(scipy.special.chdtri(freedom, SIGNIFICANCE)) / freedom:
         return 0.0, freedom
     return (scatter - expected) / freedom, freedom
 

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 Array = NDArray[np.float64]
 
@@ -214,7 +214,7 @@ def _select_terms(columns: Array, target: Array) -> _Fit:
         used = sorted((1, 2, *more))
         part = columns[:, used]
         scale = np.sqrt((part**2).sum(axis=0))
-        solution, distance = nnls(part / scale, target)
+        solution, distance = scipy.optimize.nnls(part / scale, target)
         cost = distance**2 + _SIGNIFICANT * len(more)
         if cost < least:
             least, best = cost, (used, part / scale, solution, scale)

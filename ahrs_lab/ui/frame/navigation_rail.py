@@ -117,9 +117,9 @@ class NavigationRail(QFrame):
         self._group = QButtonGroup(self)
         self.buttons: dict[str, RailButton] = {}
 
-    def add(self, key: str, icon: str) -> None:
-        """One more page below the others."""
-        button = RailButton(icon)
+    def add(self, key: str) -> None:
+        """One more page below the others; its icon has the page's name."""
+        button = RailButton(key)
         button.clicked.connect(lambda: self.chosen.emit(key))
         self._group.addButton(button)
         self.buttons[key] = button

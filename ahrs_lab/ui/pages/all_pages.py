@@ -1,24 +1,61 @@
-"""All pages but the run, made on one desk, in the order of the rail."""
+"""All pages, in the order of the rail, each made and its libraries imported when it is first needed."""
 
 from __future__ import annotations
 
-from ahrs_lab.ui.page import Page
-from ahrs_lab.ui.pages.bench import BenchPage
-from ahrs_lab.ui.pages.certificate import CertificatePage
-from ahrs_lab.ui.pages.desk import Desk
-from ahrs_lab.ui.pages.jobs.page import JobsPage
-from ahrs_lab.ui.pages.results.page import ResultsPage
-from ahrs_lab.ui.pages.setup import SetupPage
+from typing import TYPE_CHECKING
+
+from ahrs_lab.ui.page import Page, PageEntry
 from ahrs_lab.ui.pages.start import StartPage
 
+if TYPE_CHECKING:
+    from ahrs_lab.ui.pages.desk import Desk
 
-def make_pages(desk: Desk) -> tuple[Page, ...]:
-    """Start, jobs, results, certificate, bench, set-up; the run's page belongs behind the second."""
-    start, jobs = StartPage(desk), JobsPage(desk)
 
-    def new_job() -> None:
-        desk.workspace.go_to(jobs.key)
-        jobs.new_job()
+def page_entries(desk: Desk) -> tuple[PageEntry, ...]:
+    """Start first: it is what the window opens with."""
 
-    start.new_job.connect(new_job)
-    return (start, jobs, ResultsPage(desk), CertificatePage(desk), BenchPage(desk), SetupPage(desk))
+    def run() -> Page:
+        from ahrs_lab.ui.run.page import RunPage
+
+        return RunPage(desk.workspace, desk.resume_run, desk.repeat_segment)
+
+    def jobs() -> Page:
+        from ahrs_lab.ui.pages.jobs.page import JobsPage
+
+        return JobsPage(desk)
+
+    def results() -> Page:
+        from ahrs_lab.ui.pages.results.page import ResultsPage
+
+        return ResultsPage(desk)
+
+    def certificate() -> Page:
+        from ahrs_lab.ui.pages.certificate import CertificatePage
+
+        return CertificatePage(desk)
+
+    def bench() -> Page:
+        from ahrs_lab.ui.pages.bench import BenchPage
+
+        return BenchPage(desk)
+
+    def instruments() -> Page:
+        from ahrs_lab.ui.pages.instruments.page import InstrumentsPage
+
+        return InstrumentsPage(desk)
+
+    def setup() -> Page:
+        from ahrs_lab.ui.pages.setup import SetupPage
+
+        return SetupPage(desk)
+
+    return (
+        PageEntry("start", lambda: StartPage(desk)),
+        PageEntry("jobs", jobs),
+        PageEntry("run", run),
+        PageEntry("results", results),
+        PageEntry("certificate", certificate),
+        PageEntry("bench", bench),
+        PageEntry("instruments", instruments),
+        PageEntry("setup", setup),
+    )

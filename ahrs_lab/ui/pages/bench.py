@@ -34,7 +34,6 @@ class BenchPage(Page):
     """The open job's bench; without a job, one of the presets to look at."""
 
     key = "bench"
-    icon = "bench"
 
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk.workspace)
@@ -133,9 +132,6 @@ class BenchPage(Page):
         return self._settings_card
 
     # content --------------------------------------------------------------------------------------------
-
-    def title(self) -> str:
-        return self.tr("Bench")
 
     def entered(self) -> None:
         self.refresh()

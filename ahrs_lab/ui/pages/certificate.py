@@ -44,7 +44,6 @@ class CertificatePage(Page):
     """The signed certificate where there is one, else its preview."""
 
     key = "certificate"
-    icon = "certificate"
 
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk.workspace)
@@ -135,9 +134,6 @@ class CertificatePage(Page):
         return area
 
     # content --------------------------------------------------------------------------------------------
-
-    def title(self) -> str:
-        return self.tr("Certificate")
 
     def entered(self) -> None:
         self.refresh()

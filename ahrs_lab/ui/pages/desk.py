@@ -28,6 +28,8 @@ class Desk(QObject):
     """One per window. ``jobs_changed`` follows all that changes a job; close it before the laboratory."""
 
     jobs_changed = Signal()
+    new_job = Signal()
+    """The page of the jobs, which is in front, begins a new one."""
     actor_changed = Signal()
     evaluating = Signal(bool)
 

@@ -20,7 +20,6 @@ class SetupPage(Page):
     """``language_chosen`` and ``theme_chosen`` ask the application for another look."""
 
     key = "setup"
-    icon = "setup"
     language_chosen = Signal(str)
     theme_chosen = Signal(str)
 
@@ -55,6 +54,8 @@ class SetupPage(Page):
         # Each language is named in itself, so that it is found from the other one.
         self.language = SegmentedSwitch([("zh", "中文"), ("en", "English")], language())
         self.language.changed.connect(self.language_chosen)
+        self.language_chosen.connect(self.workspace.language_chosen)
+        self.theme_chosen.connect(self.workspace.theme_chosen)
         self.theme = SegmentedSwitch([("light", ""), ("dark", ""), ("system", "")], "system")
         self.theme.changed.connect(self.theme_chosen)
         for name, switch in ((self._language_name, self.language), (self._theme_name, self.theme)):
@@ -67,9 +68,6 @@ class SetupPage(Page):
             column.addLayout(row)
         column.addStretch(1)
         return whole
-
-    def title(self) -> str:
-        return self.tr("Set-up")
 
     def entered(self) -> None:
         for panel in (self.profile, self.people, self.standards):

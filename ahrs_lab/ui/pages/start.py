@@ -36,11 +36,9 @@ _PAGE_OF: dict[Action, str] = {
 
 
 class StartPage(Page):
-    """``new_job`` asks the jobs page for a new job."""
+    """The agenda."""
 
     key = "start"
-    icon = "start"
-    new_job = Signal()
 
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk.workspace)
@@ -48,7 +46,7 @@ class StartPage(Page):
         self._stack = QStackedWidget()
         self.outer.addWidget(self._stack)
         self._empty = EmptyState("jobs")
-        self._empty.pressed.connect(self.new_job)
+        self._empty.pressed.connect(self._new_job)
         self._stack.addWidget(self._empty)
         board = QWidget()
         column = QVBoxLayout(board)
@@ -84,12 +82,9 @@ class StartPage(Page):
         words.addWidget(self._day)
         row.addLayout(words, 1)
         self.new_button = PrimaryButton(icon="add")
-        self.new_button.clicked.connect(self.new_job)
+        self.new_button.clicked.connect(self._new_job)
         row.addWidget(self.new_button, 0, Qt.AlignmentFlag.AlignVCenter)
         return row
-
-    def title(self) -> str:
-        return self.tr("Start")
 
     def entered(self) -> None:
         self.refresh()
@@ -108,6 +103,10 @@ class StartPage(Page):
         for key, card in self._columns.items():
             card.show_tasks(found.tasks[key])
         self._issued.show_jobs(found.issued)
+
+    def _new_job(self) -> None:
+        self.workspace.go_to("jobs")
+        self._desk.new_job.emit()
 
     def _act(self, number: str, page: str) -> None:
         self._desk.open(number, page)

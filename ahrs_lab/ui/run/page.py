@@ -28,7 +28,6 @@ class RunPage(Page):
     again; without them the bridge does."""
 
     key = "run"
-    icon = "run"
 
     def __init__(
         self,
@@ -79,10 +78,6 @@ class RunPage(Page):
         pause = QShortcut(QKeySequence(Qt.Key.Key_P), self)
         pause.activated.connect(self._bridge.toggle_pause)
         self._space = mounted
-
-    def title(self) -> str:
-        """The rail's word."""
-        return self.tr("Run")
 
     def refresh(self) -> None:
         """Look at the run."""

@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from ahrs_lab.records import people
 from ahrs_lab.records.rows import SignedIn
 from ahrs_lab.ui.main_window import MainWindow
-from ahrs_lab.ui.pages.all_pages import make_pages
+from ahrs_lab.ui.pages.all_pages import page_entries
 from ahrs_lab.ui.pages.bench import BenchPage
 from ahrs_lab.ui.pages.certificate import CertificatePage
 from ahrs_lab.ui.pages.desk import Desk
@@ -115,20 +115,25 @@ def actors(laboratory: FakeLaboratory, desk: Desk) -> dict[str, SignedIn]:
     return found
 
 
+SHOWN = ("start", "jobs", "results", "certificate", "bench", "setup")
+
+
 @pytest.fixture
 def empty_screens(look: Look, qtbot: QtBot, desk: Desk, laboratory: FakeLaboratory) -> Screens:
     """All pages at 1366×768 before there is anything."""
     window = MainWindow(desk.workspace, theme="light")
     qtbot.addWidget(window)
-    start, jobs, results, certificate, bench, setup = make_pages(desk)
+    for entry in page_entries(desk):
+        if entry.key in SHOWN:
+            window.add_entry(entry)
+    window.make_all_pages()
+    start, jobs, results, certificate, bench, setup = (window.pages[key] for key in SHOWN)
     assert isinstance(start, StartPage)
     assert isinstance(jobs, JobsPage)
     assert isinstance(results, ResultsPage)
     assert isinstance(certificate, CertificatePage)
     assert isinstance(bench, BenchPage)
     assert isinstance(setup, SetupPage)
-    for page in (start, jobs, results, certificate, bench, setup):
-        window.add_page(page)
     window.resize(1366, 768)
     window.show()
     notices: list[tuple[str, str]] = []

@@ -156,4 +156,4 @@ def test_the_language_changes_while_the_pages_are_there(
     chinese()
     assert before == "Uncertainty budget"
     assert "不确定度" in screens.results.tabs.tabText(2)
-    assert screens.start.title() == "首页"
+    assert screens.window.rail.buttons["start"].text() == "首页"

@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from ahrs_lab.laboratory.demonstration import PASSWORD
 from ahrs_lab.laboratory.laboratory import Laboratory
 from ahrs_lab.ui.main_window import MainWindow
-from ahrs_lab.ui.pages.all_pages import make_pages
+from ahrs_lab.ui.pages.all_pages import page_entries
 from ahrs_lab.ui.pages.certificate import CertificatePage
 from ahrs_lab.ui.pages.certificate_signing import SignDialog
 from ahrs_lab.ui.pages.desk import Desk
@@ -34,8 +34,8 @@ def real(look: Look, qtbot: QtBot, tmp_path: Path) -> Iterator[tuple[MainWindow,
         workspace = Workspace(laboratory, laboratory.settings, speed=None)
         desk = Desk(workspace, workspace)
         window = MainWindow(workspace, theme="light")
-        for page in make_pages(desk):
-            window.add_page(page)
+        for entry in page_entries(desk):
+            window.add_entry(entry)
         window.show()
         operator = next(p for p in laboratory.people() if "operator" in p.roles)
         desk.sign_in(laboratory.sign_in(operator.name, PASSWORD))

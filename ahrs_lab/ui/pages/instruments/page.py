@@ -36,7 +36,6 @@ class InstrumentsPage(Page):
     """One bench at a time. Close its session (:meth:`close_session`) before the laboratory."""
 
     key = "instruments"
-    icon = "instruments"
 
     def __init__(
         self, desk: Desk, benches: InstrumentBenches | None = None, *, supervised: bool = True
@@ -52,7 +51,8 @@ class InstrumentsPage(Page):
         self.session.looked.connect(self._show)
         self.session.told.connect(self._tell)
         self.workspace.stoppable.append(self.session)
-        self.workspace.run_starting.connect(self.close_session)
+        for signal in (self.workspace.run_starting, self.workspace.closing):
+            signal.connect(self.close_session)
         self._part: Kind = "table"
         self._stack = QStackedWidget()
         self.outer.addWidget(self._stack)
@@ -149,9 +149,6 @@ class InstrumentsPage(Page):
         return column
 
     # content ──────────────────────────────────────────────────────────────────────────────────────────────
-
-    def title(self) -> str:
-        return self.tr("Instruments")
 
     def entered(self) -> None:
         self.refresh()

@@ -29,7 +29,6 @@ class JobsPage(Page):
     """Comes to the front with the open job's editor when another page asks for it, else with the list."""
 
     key = "jobs"
-    icon = "jobs"
 
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk.workspace)
@@ -38,6 +37,7 @@ class JobsPage(Page):
         self.outer.addWidget(self._stack)
         self._empty = EmptyState("jobs")
         self._empty.pressed.connect(self.new_job)
+        desk.new_job.connect(self.new_job)
         self.editor = JobEditor(desk)
         self.editor.left.connect(self.show_list)
         self._stack.addWidget(self._empty)
@@ -78,9 +78,6 @@ class JobsPage(Page):
         card.add(self._nothing)
         column.addWidget(card, 1)
         return whole
-
-    def title(self) -> str:
-        return self.tr("Jobs")
 
     def entered(self) -> None:
         """With the open job, unless the list was left open on purpose."""

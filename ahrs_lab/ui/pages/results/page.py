@@ -30,7 +30,6 @@ class ResultsPage(Page):
     """The open job's current result."""
 
     key = "results"
-    icon = "results"
 
     def __init__(self, desk: Desk) -> None:
         super().__init__(desk.workspace)
@@ -132,9 +131,6 @@ class ResultsPage(Page):
         return menu
 
     # content --------------------------------------------------------------------------------------------
-
-    def title(self) -> str:
-        return self.tr("Results")
 
     def entered(self) -> None:
         self.refresh()

@@ -3,7 +3,6 @@
     python benchmarks/first_window.py [--repeat 5]
 
 Each start is a process of its own on the offscreen platform: the very first one (the laboratory is made) and
-later
 later ones. The clock starts before the process and stops when the event loop has drawn the window.
 """
 
@@ -21,6 +20,8 @@ AIM_WINDOW_S, AIM_HELP_S = 1.5, 0.3
 
 _START = """
 import sys, time
+# In the order in which the command itself imports: what comes after Qt is dearer.
+import ahrs_lab.cli.commands, ahrs_lab.laboratory.laboratory
 from PySide6.QtWidgets import QApplication
 def drawn(*_):
     QApplication.processEvents()

@@ -283,6 +283,14 @@ def explain_pip(output: str) -> str:
     return f"Pip could not install the application:\n{last_lines(output)}\nEverything it said is in {LOG}."
 
 
+def compile_modules() -> None:
+    """Compile the modules that are newer than what was compiled from them, so that the first start, too, is
+    quick (and where Python is told to write no bytecode by itself)."""
+    done = run_quietly([str(in_venv("python")), "-m", "compileall", "-q", str(ROOT / "ahrs_lab")])
+    if done.returncode != 0:
+        raise MachineError(f"The application could not be compiled:\n{last_lines(done.stdout)}")
+
+
 def compile_translations() -> None:
     """Compile each translation that is newer than what was compiled from it."""
     for source in stale_translations(TRANSLATIONS):
@@ -358,6 +366,7 @@ def main(arguments: list[str]) -> int:
             venv_exists = in_venv("python").exists()
             provide(missing_on_linux(screen=screen, testing=command != "demo", venv_exists=venv_exists))
         prepare("" if command == "demo" else ALL_EXTRAS)
+        compile_modules()
         compile_translations()
         if command == "demo":
             return start([str(in_venv("ahrs-lab")), "demo", *demo_arguments(given, screen)], os.environ)

@@ -105,14 +105,14 @@ def _alone(home: Path) -> Iterator[None]:
 
 def _fill(laboratory: Laboratory) -> SignedIn:
     """Also goes on where another start was killed half-way."""
-    found = {row.name: row for row in laboratory.people()}
-
-    def somebody(row: PersonRow, actor: SignedIn | None) -> PersonRow:
-        return found.get(row.name) or laboratory.add_person(row, PASSWORD, actor)
-
-    operator = somebody(OPERATOR, None)
-    actor = laboratory.sign_in(OPERATOR.name, PASSWORD)
-    verifier, approver = somebody(VERIFIER, actor), somebody(APPROVER, actor)
+    people = (OPERATOR, VERIFIER, APPROVER)
+    if found := {row.name: row for row in laboratory.people()}:
+        actor = laboratory.sign_in(OPERATOR.name, PASSWORD)
+        operator, verifier, approver = (
+            found.get(row.name) or laboratory.add_person(row, PASSWORD, actor) for row in people
+        )
+    else:
+        actor, (operator, verifier, approver) = laboratory.first_people(people, PASSWORD)
     laboratory.set_profile(
         LaboratoryRow(
             "演示校准实验室",

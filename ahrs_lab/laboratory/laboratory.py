@@ -96,6 +96,12 @@ class Laboratory:
         """Add somebody; their signing key is made when they first sign, locked by the same password."""
         return self.records.people.add(row, password, actor)
 
+    def first_people(
+        self, rows: Sequence[PersonRow], password: str
+    ) -> tuple[SignedIn, tuple[PersonRow, ...]]:
+        """Of an empty laboratory, all with one published password; the first of them is signed in."""
+        return self.records.people.found(rows, password)
+
     def change_person(self, row: PersonRow, actor: SignedIn, password: str | None = None) -> None:
         """Change somebody; a new password comes with a new signing key."""
         self.records.people.change(row, actor, password)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import getpass
 import secrets
+from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -80,6 +81,28 @@ class People:
             ).one()
         return person(found)
 
+    def found(self, rows: Sequence[PersonRow], password: str) -> tuple[SignedIn, tuple[PersonRow, ...]]:
+        """The first people of an empty laboratory, an administrator first, who is signed in.
+
+        All with one ``password``, and so with one hash: for a demonstration, whose password is published.
+        """
+        if not rows or "administrator" not in rows[0].roles:
+            raise InputError("The first person has to be an administrator: nobody could add the others.")
+        hashed = hash_password(password)
+        with self._records.writing() as connection:
+            if connection.execute(select(schema.people.c.id).limit(1)).first() is not None:
+                raise InputError("There are people in the records already.")
+            for row in rows:
+                _check(row)
+                connection.execute(insert(schema.people).values(**_values(row), password_hash=hashed))
+                audit.write(
+                    connection, "(first start)", "add person", f"person {row.name}", after=_values(row)
+                )
+            made = connection.execute(select(schema.people).order_by(schema.people.c.id)).all()
+            audit.write(connection, rows[0].name, "sign in", f"person {rows[0].name}")
+        people = tuple(person(row) for row in made)
+        return self._session(people[0]), people
+
     def change(self, row: PersonRow, actor: SignedIn, password: str | None = None) -> None:
         """Change somebody's facts, or their password; by an administrator. The last of them stays one."""
         who = self.require(actor, "administrator").name
@@ -129,16 +152,17 @@ class People:
             audit.write(connection, name, "sign in" if right else "sign in refused", f"person {name}")
         if not right:
             raise refused
-        signed_in = SignedIn(person(row), secrets.token_urlsafe(24))
-        self._sessions[signed_in.token] = signed_in.person
+        return self._session(person(row))
+
+    def _session(self, row: PersonRow) -> SignedIn:
+        signed_in = SignedIn(row, secrets.token_urlsafe(24))
+        self._sessions[signed_in.token] = row
         return signed_in
 
     def machine_user(self) -> SignedIn:
         """The machine's user at the command line, where nobody signs in: may only take recordings in."""
         row = PersonRow(_MACHINE_USER, f"{getpass.getuser()} (command line)", roles=frozenset({"importer"}))
-        signed_in = SignedIn(row, secrets.token_urlsafe(24))
-        self._sessions[signed_in.token] = row
-        return signed_in
+        return self._session(row)
 
     def sign_out(self, signed_in: SignedIn) -> None:
         """The token counts no longer."""

@@ -291,6 +291,7 @@ class TestCommandLine:
 
         for name in ("provide", "prepare"):
             monkeypatch.setattr(bootstrap, name, lambda *_: None)
+        monkeypatch.setattr(bootstrap, "compile_modules", lambda: None)
         monkeypatch.setattr(bootstrap, "compile_translations", lambda: None)
         monkeypatch.setattr(bootstrap, "start", start)
         return calls

@@ -6,7 +6,7 @@ Coordinates are PDF points from the lower left; texts are placed by their baseli
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Literal
 
@@ -58,9 +58,9 @@ def _pieces(run: Run) -> Sequence[Run]:
     parts: list[Run] = []
     for index, text in enumerate(run.text.split(THIN_SPACE)):
         if index:
-            parts.append(replace(run, text=THIN_SPACE))
+            parts.append(_with_text(run, THIN_SPACE))
         if text:
-            parts.append(replace(run, text=text))
+            parts.append(_with_text(run, text))
     return parts
 
 
@@ -85,38 +85,49 @@ def text_width(rich: RichText, size: float) -> float:
     )
 
 
-def _atoms(rich: RichText) -> list[RichText]:
+@lru_cache(maxsize=8192)
+def _atoms(rich: RichText) -> tuple[RichText, ...]:
     """What may not be broken: a word with its trailing space, or one Chinese character."""
     atoms: list[list[Run]] = []
     open_atom = False
+    last = ""
     for run in rich:
-        for character in run.text:
-            piece = replace(run, text=character)
-            joins = open_atom and not _is_cjk(character)
-            if atoms and (character in _NEVER_FIRST or atoms[-1][-1].text[-1] in _NEVER_LAST):
-                joins = True
-            if joins:
-                last = atoms[-1][-1]
-                if replace(last, text="") == replace(run, text=""):
-                    atoms[-1][-1] = replace(last, text=last.text + character)
-                else:
-                    atoms[-1].append(piece)
-            else:
-                atoms.append([piece])
-            open_atom = not (_is_cjk(character) or character == " ")
-    return [tuple(atom) for atom in atoms]
+        start = 0
+        for index, character in enumerate(run.text):
+            wide = _is_cjk(character)
+            joins = (open_atom and not wide) or character in _NEVER_FIRST or last in _NEVER_LAST
+            if not (last and joins):
+                _add(atoms, run, start, index)
+                atoms.append([])
+                start = index
+            open_atom, last = not (wide or character == " "), character
+        _add(atoms, run, start, len(run.text))
+    return tuple(tuple(atom) for atom in atoms)
+
+
+def _add(atoms: list[list[Run]], run: Run, start: int, end: int) -> None:
+    if end > start:
+        atoms[-1].append(_with_text(run, run.text[start:end]))
+
+
+def _with_text(run: Run, text: str) -> Run:
+    return Run(text, run.shift, run.bold, run.grey)
+
+
+def _look(run: Run) -> tuple[object, ...]:
+    return (run.shift, run.bold, run.grey)
 
 
 def _merged(atoms: Sequence[RichText]) -> RichText:
     runs: list[Run] = []
     for atom in atoms:
         for run in atom:
-            if runs and replace(runs[-1], text="") == replace(run, text=""):
-                runs[-1] = replace(runs[-1], text=runs[-1].text + run.text)
+            if runs and _look(runs[-1]) == _look(run):
+                runs[-1] = _with_text(run, runs[-1].text + run.text)
             else:
                 runs.append(run)
     if runs:
-        runs[-1] = replace(runs[-1], text=runs[-1].text.rstrip(" "))
+        runs[-1] = _with_text(runs[-1], runs[-1].text.rstrip(" "))
     return tuple(run for run in runs if run.text)
 
 
@@ -124,7 +135,7 @@ def _broken(atom: RichText, size: float, width: float) -> list[RichText]:
     """A word that is wider than the line, cut into characters."""
     if text_width(atom, size) <= width:
         return [atom]
-    return [(replace(run, text=character),) for run in atom for character in run.text]
+    return [(_with_text(run, character),) for run in atom for character in run.text]
 
 
 def wrap(rich: RichText, size: float, width: float) -> list[RichText]:
@@ -137,8 +148,8 @@ def _lines(rich: RichText, size: float, width: float) -> tuple[RichText, ...]:
     paragraphs: list[list[Run]] = [[]]
     for run in rich:
         first, *others = run.text.replace(" = ", _EQUALS).split("\n")
-        paragraphs[-1].append(replace(run, text=first))
-        paragraphs.extend([replace(run, text=text)] for text in others)
+        paragraphs[-1].append(_with_text(run, first))
+        paragraphs.extend([_with_text(run, text)] for text in others)
     return tuple(line for paragraph in paragraphs for line in _wrap_one(tuple(paragraph), size, width))
 
 

@@ -79,8 +79,10 @@ def write_document(document: Document, target: Path) -> Path:
 
 def laid_out(document: Document) -> tuple[bytes, tuple[SignaturePlace, ...]]:
     """The pages as reportlab writes them, and where the signatures go."""
+    from reportlab import rl_config
     from reportlab.pdfgen.canvas import Canvas
 
+    rl_config.useA85 = 0  # streams as bytes: text around them would only make the file larger
     register_fonts()
     check_glyphs(texts_of(document))
     frame = FrameDrawing(document.frame)

@@ -6,8 +6,10 @@ drawn smaller and shifted. Texts that come from elsewhere and use Unicode supers
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import groupby
 from typing import Literal
 
 Shift = Literal["", "sub", "sup"]
@@ -16,6 +18,8 @@ MINUS = "\N{MINUS SIGN}"
 
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁽⁾ⁿ", "0123456789+−()n", strict=True))
 _LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋₍₎ₓ", "0123456789+−()x", strict=True))
+_DRAWN = _RAISED | _LOWERED
+_SHIFTED = re.compile("[" + "".join(_DRAWN) + "]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,15 +37,17 @@ RichText = tuple[Run, ...]
 
 def plain(text: str, *, bold: bool = False, grey: bool = False) -> RichText:
     """``text`` as it stands; Unicode super- and subscripts become raised and lowered runs."""
-    runs: list[Run] = []
-    for character in text:
-        shift: Shift = "sup" if character in _RAISED else "sub" if character in _LOWERED else ""
-        drawn = _RAISED.get(character) or _LOWERED.get(character) or character
-        if runs and runs[-1].shift == shift:
-            runs[-1] = replace(runs[-1], text=runs[-1].text + drawn)
-        else:
-            runs.append(Run(drawn, shift, bold, grey))
-    return tuple(runs)
+    if not _SHIFTED.search(text):
+        return (Run(text, "", bold, grey),) if text else ()
+    return tuple(
+        Run("".join(_DRAWN.get(character, character) for character in part), shift, bold, grey)
+        for shift, characters in groupby(text, _shift)
+        for part in ("".join(characters),)
+    )
+
+
+def _shift(character: str) -> Shift:
+    return "sup" if character in _RAISED else "sub" if character in _LOWERED else ""
 
 
 def markup(text: str) -> RichText:

@@ -102,6 +102,7 @@ class TableBox:
     def __init__(self, table: Table, measured: _Measured | None = None) -> None:
         self._table = table
         self._measured = measured
+        self._wrapped: tuple[float, list[list[list[RichText]]]] | None = None
         self.keep_with_next = table.kept
 
     def _layout(self, width: float) -> _Measured:
@@ -114,15 +115,17 @@ class TableBox:
         return [_header_lines(c, size - 0.5, w) for c, w in zip(self._table.columns, widths, strict=True)]
 
     def _rows(self, width: float) -> list[list[list[RichText]]]:
-        size, widths = self._layout(width)
-        columns = self._table.columns
-        return [
-            [
-                wrap(bold(_cell(c, cell)) if self._is_summary(index) else _cell(c, cell), size, w)
-                for c, cell, w in zip(columns, row, widths, strict=True)
+        if self._wrapped is None or self._wrapped[0] != width:
+            size, widths = self._layout(width)
+            rows = [
+                [
+                    wrap(bold(_cell(c, cell)) if self._is_summary(index) else _cell(c, cell), size, w)
+                    for c, cell, w in zip(self._table.columns, row, widths, strict=True)
+                ]
+                for index, row in enumerate(self._table.rows)
             ]
-            for index, row in enumerate(self._table.rows)
-        ]
+            self._wrapped = (width, rows)
+        return self._wrapped[1]
 
     def _is_summary(self, index: int) -> bool:
         return index >= len(self._table.rows) - self._table.summary_rows

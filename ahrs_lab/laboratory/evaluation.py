@@ -6,13 +6,16 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import ahrs_lab
 from ahrs_lab.errors import InputError, MachineError
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.metrology.result_json import from_json, to_json
+
+if TYPE_CHECKING:
+    from ahrs_lab.recording.read_ahead import ReadAhead
 
 SOFTWARE = f"ahrs-lab {ahrs_lab.__version__}"
 MAXIMAL_RESULT_BYTES = 64 * 2**20
@@ -29,18 +32,22 @@ class EvaluationSettings:
 
 
 def evaluate_bundle(
-    bundle: Path, settings: EvaluationSettings | None = None, capability: BenchCapability | None = None
+    bundle: Path,
+    settings: EvaluationSettings | None = None,
+    capability: BenchCapability | None = None,
+    ahead: ReadAhead | None = None,
 ) -> CalibrationResult:
     """Read ``bundle`` (folder or ``.ahrsrec``) with all its checks and reduce it.
 
-    ``capability``: the bench's figures; None: those that the recording names, else clause 6's own.
+    ``capability``: the bench's figures; None: those that the recording names, else clause 6's own. ``ahead``
+    read its segments while it was being recorded.
     """
     from ahrs_lab.procedures.reduction import reduce_recording
     from ahrs_lab.recording.read import read_bundle
 
     settings = settings or EvaluationSettings()
     return reduce_recording(
-        read_bundle(bundle),
+        read_bundle(bundle, ahead),
         rates=settings.rates,
         uncertainty=settings.uncertainty,
         capability=capability,

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from ahrs_lab.certificates.verify import VerificationReport
     from ahrs_lab.laboratory.live_run import LiveRun
     from ahrs_lab.procedures.events import Event
+    from ahrs_lab.recording.read_ahead import ReadAhead
 
 
 class Laboratory:
@@ -209,9 +210,10 @@ class Laboratory:
 
         take_up(self, number, actor, reason)
 
-    def finish_run(self, number: str, actor: SignedIn) -> CalibrationResult:
-        """Evaluate what the job's run recorded, keep the result, and call the job measured."""
-        result = self.recalculate(number, EvaluationSettings(), actor)
+    def finish_run(self, number: str, actor: SignedIn, ahead: ReadAhead | None = None) -> CalibrationResult:
+        """Evaluate what the job's run recorded (``ahead`` has read of it already), keep the result, and call
+        the job measured."""
+        result = self.recalculate(number, EvaluationSettings(), actor, ahead)
         if self.job(number).state == "running":
             self.records.jobs.move(number, "measured", actor)
         return result
@@ -222,10 +224,12 @@ class Laboratory:
         if self.job(number).state == "running":
             self.records.jobs.move(number, "ready", actor)
 
-    def recalculate(self, number: str, settings: EvaluationSettings, actor: SignedIn) -> CalibrationResult:
+    def recalculate(
+        self, number: str, settings: EvaluationSettings, actor: SignedIn, ahead: ReadAhead | None = None
+    ) -> CalibrationResult:
         """Reduce the job's recording again; the result becomes the current one, earlier ones stay."""
         capability = job_sheets.capability(self.job(number))
-        result = evaluate_bundle(self.bundle(number), settings, capability)
+        result = evaluate_bundle(self.bundle(number), settings, capability, ahead)
         self.records.jobs.add_result(
             number, json.dumps(to_json(result), ensure_ascii=False, allow_nan=False), actor
         )

@@ -87,6 +87,7 @@ def certificate_content(
         )
     asked = job.requirements
     _check_units(result, job)
+    _check_repeatability(result, job)
     shown = reported(result, job.best_capability)
     conformity = assess(shown.result, asked.limits, asked.rule)
     mark = _raised_mark(result)
@@ -115,6 +116,23 @@ def certificate_content(
             *((budget_annex(result, writer),) if job.budget_annex else ()),
         ),
         seal=seal_of(result, job),
+    )
+
+
+def _check_repeatability(result: CalibrationResult, job: JobSheet) -> None:
+    """U of B is what the job asks for: with the repeatability, or without."""
+    asked = job.requirements.repeatability
+    known = [one for one in result.zero_offset.values() if one.repeatability_dps is not None]
+    if not any(one.repeatability_included is not asked for one in known):
+        return
+    if asked:
+        raise InputError(
+            "The job asks for U of B with the repeatability, and the result has it without: evaluate the "
+            "recording again with this job, by the GUM method."
+        )
+    raise InputError(
+        "The result's U of B includes the repeatability, which this job does not ask for: evaluate the "
+        "recording again with this job."
     )
 
 

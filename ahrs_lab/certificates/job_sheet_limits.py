@@ -24,10 +24,14 @@ _Made = TypeVar("_Made")
 
 
 def read_requirements(top: _Table) -> Requirements:
-    """``[[limit]]``, ``[decision_rule]`` and ``[units]``; raises InputError with the place of a fault."""
+    """``[[limit]]``, ``[decision_rule]``, ``[units]`` and ``[uncertainty]``; raises InputError with the place
+    of a fault."""
     limits = tuple(_limit(table) for table in top.tables("limit"))
     rule, units = _rule(top.table("decision_rule", required=False)), _units(top)
-    return _made(top, lambda: Requirements(limits, rule, units))
+    uncertainty = top.table("uncertainty", required=False)
+    repeatability = uncertainty.flag("include_repeatability")
+    uncertainty.finish()
+    return _made(top, lambda: Requirements(limits, rule, units, repeatability))
 
 
 def read_best_capability(table: _Table) -> BestCapability:

@@ -30,7 +30,8 @@ def uncertainty_statement(
     if job.rounding == "up":
         statements.append(wording.ROUNDED_UP)
     if result.zero_offset:
-        meaning = [wording.MEANING_OF_B]
+        included = all(one.repeatability_included for one in result.zero_offset.values())
+        meaning = [wording.MEANING_OF_B_WITH if included else wording.MEANING_OF_B]
         known = [one for one in result.zero_offset.values() if one.repeatability_dps is not None]
         if any(not one.repeatability_cycles for one in known):
             meaning.append(wording.REPEATABILITY_BY_ALLAN)

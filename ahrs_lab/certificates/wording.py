@@ -145,6 +145,11 @@ MEANING_OF_B = Words(
     "B is the mean offset over the recorded dwells under the conditions stated. Its U does not cover "
     "what B may be on another day (bias instability, turn-on repeatability).",
 )
+MEANING_OF_B_WITH = Words(
+    "零偏 B 为所述条件下各记录时段输出的平均值；应委托方要求，其 U 包含“重复性”一栏所示的他日变化。",
+    "B is the mean offset over the recorded dwells under the conditions stated. As the customer asked, its U "
+    "includes what B may be on another day, as the repeatability beside it shows.",
+)
 REPEATABILITY_BY_ALLAN = Words(
     "零偏表中的“重复性”为时长 T 处的 Allan 标准差，只反映零偏稳定性，不含通电重复性。",
     "The repeatability beside B is the Allan deviation at the dwell T: it shows the bias instability, not "

@@ -96,7 +96,7 @@ def _run(arguments: argparse.Namespace) -> int:
                 bench,
                 arguments.out,
                 on_event=progress.event,
-                settings=_settings(arguments),
+                settings=_settings(arguments, job),
                 capability=job.capability if job else None,
                 again_from=arguments.again_from,
                 reason=arguments.reason,
@@ -109,9 +109,12 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _settings(arguments: argparse.Namespace) -> EvaluationSettings:
+def _settings(arguments: argparse.Namespace, job: JobSheet | None) -> EvaluationSettings:
     return EvaluationSettings(
-        rates=arguments.rates, uncertainty=arguments.uncertainty, trials=arguments.trials
+        rates=arguments.rates,
+        uncertainty=arguments.uncertainty,
+        trials=arguments.trials,
+        repeatability=job is not None and job.requirements.repeatability,
     )
 
 
@@ -128,7 +131,7 @@ def _evaluate(arguments: argparse.Namespace) -> int:
     job = _job(arguments)
     requirements = job.requirements if job else Requirements()
     _refuse_strict_without_limits(arguments, requirements)
-    result = evaluate_bundle(arguments.bundle, _settings(arguments), job.capability if job else None)
+    result = evaluate_bundle(arguments.bundle, _settings(arguments, job), job.capability if job else None)
     judged = judge_result(result, requirements, job.best_capability if job else BestCapability())
     rounding: RoundingMode = job.rounding if job else "half-even"
     text = "\n".join([summary(judged.shown, rounding), *judgement(judged, rounding)])

@@ -29,6 +29,8 @@ class EvaluationSettings:
     rates: Literal["demanded", "table"] = "demanded"
     uncertainty: Literal["gum", "annex-a"] = "gum"
     trials: int | None = None
+    repeatability: bool = False
+    """U of B includes what B may be another day, as the job asks."""
 
 
 def evaluate_bundle(
@@ -53,6 +55,7 @@ def evaluate_bundle(
         capability=capability,
         software=SOFTWARE,
         trials=settings.trials,
+        repeatability=settings.repeatability,
     )
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -227,8 +228,12 @@ class Laboratory:
     def recalculate(
         self, number: str, settings: EvaluationSettings, actor: SignedIn, ahead: ReadAhead | None = None
     ) -> CalibrationResult:
-        """Reduce the job's recording again; the result becomes the current one, earlier ones stay."""
-        capability = job_sheets.capability(self.job(number))
+        """Reduce the job's recording again, as its customer asked; the result becomes the current one,
+        earlier ones stay."""
+        job = self.job(number)
+        capability = job_sheets.capability(job)
+        asked = requirements_from_json(job.limits_json)
+        settings = replace(settings, repeatability=asked.repeatability)
         result = evaluate_bundle(self.bundle(number), settings, capability, ahead)
         self.records.jobs.add_result(
             number, json.dumps(to_json(result), ensure_ascii=False, allow_nan=False), actor

@@ -38,11 +38,13 @@ class ResultUnits:
 
 @dataclass(frozen=True)
 class Requirements:
-    """Empty: no statement of conformity, the usual units."""
+    """Empty: no statement of conformity, the usual units. ``repeatability``: U of B shall include what B may
+    be another day."""
 
     limits: tuple[Limit, ...] = ()
     rule: DecisionRule = field(default_factory=DecisionRule)
     units: ResultUnits = field(default_factory=ResultUnits)
+    repeatability: bool = False
 
     def __post_init__(self) -> None:
         check_distinct(self.limits)
@@ -70,6 +72,7 @@ def requirements_to_json(requirements: Requirements) -> str:
             "zero_offset": units.zero_offset,
             "misalignment": units.misalignment,
         },
+        "repeatability_in_U": requirements.repeatability,
     }
     return json.dumps(data, ensure_ascii=False, allow_nan=False)
 
@@ -93,17 +96,21 @@ def requirements_from_json(text: str) -> Requirements:
         )
         for one in reader.objects("limits")
     )
-    return Requirements(limits, _rule(reader), _units(reader))
+    return Requirements(limits, _rule(reader), _units(reader), _flag(reader, "repeatability_in_U"))
 
 
 def _rule(reader: JsonReader) -> DecisionRule:
     if not reader.has("rule"):
         return DecisionRule()
     rule = reader.object("rule")
-    probability = rule.data.get("probability", False)
-    if not isinstance(probability, bool):
-        raise rule.fault("probability", Message("true or false"))
-    return DecisionRule(rule.choice("kind", RULES), rule.number("r", 1.0), probability)
+    return DecisionRule(rule.choice("kind", RULES), rule.number("r", 1.0), _flag(rule, "probability"))
+
+
+def _flag(reader: JsonReader, key: str) -> bool:
+    value = reader.data.get(key, False)
+    if not isinstance(value, bool):
+        raise reader.fault(key, Message("true or false"))
+    return value
 
 
 def _units(reader: JsonReader) -> ResultUnits:

@@ -148,7 +148,7 @@ class ZeroOffsetResult:
     azimuths_deg: tuple[float, ...] = ()
     durations_s: tuple[float, ...] = ()
     repeatability_dps: float | None = None
-    """What B may be another day, °/s; beside U, not in it."""
+    """What B may be another day, °/s; beside U, unless ``repeatability_included``."""
     earth_rate_check: Mapping[str, float] | None = None
     """Multi-position: first harmonic: ``amplitude_dps``, ``expected_dps``, ``phase_deg``, and
     ``heading_at_zero_deg``: where the axis points, clockwise from north, at table azimuth 0."""
@@ -156,6 +156,8 @@ class ZeroOffsetResult:
     repeatability_cycles: int = 0
     """Power-ons whose single results scatter by ``repeatability_dps``; 0: it is the Allan deviation at the
     dwell, which shows the bias instability alone."""
+    repeatability_included: bool = False
+    """U includes it, as the job asked: it holds for another day too."""
 
 
 @dataclass(frozen=True)

@@ -181,6 +181,7 @@ def _zero_offset(found: ZeroOffsetResult) -> dict[str, Any]:
         "durations_s": list(found.durations_s),
         "repeatability_dps": found.repeatability_dps,
         "repeatability_cycles": found.repeatability_cycles,
+        "repeatability_included": found.repeatability_included,
         "earth_rate_check": None if found.earth_rate_check is None else dict(found.earth_rate_check),
         "segments": list(found.segments),
     }
@@ -203,6 +204,7 @@ def _read_zero_offset(axis: AxisName, reader: JsonReader) -> ZeroOffsetResult:
         repeatability_cycles=(
             reader.whole("repeatability_cycles") if reader.has("repeatability_cycles") else 0
         ),
+        repeatability_included=reader.data.get("repeatability_included") is True,
         earth_rate_check=None if check is None else {name: check.number(name) for name in check.data},
         segments=reader.texts("segments"),
     )

@@ -43,13 +43,15 @@ def reduce_recording(
     capability: BenchCapability | None = None,
     software: str | None = None,
     trials: int | None = None,
+    repeatability: bool = False,
 ) -> CalibrationResult:
     """K, B and L with their uncertainties, of whatever the recording holds (JJF 1536 7.1 to 7.3).
 
     ``rates``: Ω as demanded, or as the table measured it (angle turned over time). ``capability``: the
     bench's figures for the type B terms, by default those that the recording names, else the assumptions of
     :class:`BenchCapability`; the result's notes say which. ``trials``: of the Monte Carlo check of each GUM
-    uncertainty; None as many as it needs, 0 without. The last take of a segment counts. Raises InputError,
+    uncertainty; None as many as it needs, 0 without. ``repeatability``: U of B includes what B may be
+    another day. The last take of a segment counts. Raises InputError,
     with file and line, where a recorded segment does not reach the standard's minimum or nothing can be
     evaluated; a quantity that lacks segments is left out and named in the warnings.
     """
@@ -58,7 +60,7 @@ def reduce_recording(
         check_trials(trials)
     settings = MonteCarloSettings(recording.sha256, trials)
     with np.errstate(over="ignore", invalid="ignore"):
-        result = _reduce(recording, rates, uncertainty, figures, software, settings)
+        result = _reduce(recording, rates, uncertainty, figures, software, settings, repeatability)
     _check_finite(result)
     return result
 
@@ -70,6 +72,7 @@ def _reduce(
     capability: BenchCapability,
     software: str | None,
     monte_carlo: MonteCarloSettings,
+    with_repeatability: bool,
 ) -> CalibrationResult:
     selection = select(recording)
     header = recording.header
@@ -82,6 +85,7 @@ def _reduce(
         method=method,
         capability=capability,
         monte_carlo=monte_carlo,
+        with_repeatability=with_repeatability,
     )
     warnings: list[ResultWarning] = [*selection.warnings, *_run_warnings(recording)]
     scale_factors: dict[Axis, ScaleFactorResult] = {}

@@ -51,6 +51,8 @@ class Evidence:
     method: Method
     capability: BenchCapability
     monte_carlo: MonteCarloSettings
+    with_repeatability: bool = False
+    """U of B includes what B may be another day."""
 
     @cached_property
     def noise(self) -> dict[Axis, NoiseModel]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
@@ -23,7 +23,11 @@ from ahrs_lab.metrology.result import (
 from ahrs_lab.metrology.uncertainty.fitted_scale import UNSCALED, FittedScale
 from ahrs_lab.metrology.uncertainty.full_model import check_by_monte_carlo
 from ahrs_lab.metrology.uncertainty.full_zero_offset import zero_offset_model
-from ahrs_lab.metrology.uncertainty.gum_zero_offset import ZeroOffsetEvidence, zero_offset_uncertainty
+from ahrs_lab.metrology.uncertainty.gum_zero_offset import (
+    Repeatability,
+    ZeroOffsetEvidence,
+    zero_offset_uncertainty,
+)
 from ahrs_lab.metrology.zero_offset import azimuth_harmonic, zero_offset
 from ahrs_lab.procedures.reduction_evidence import Evidence
 from ahrs_lab.procedures.reduction_output import degrees_factor
@@ -232,8 +236,12 @@ def _result(
     )
     B = zero_offset(angles, durations)
     duration = float(durations.mean())
-    repeatability, cycles = _repeatability(evidence, axis, positions, factor, duration)
-    recorded = _budget_input(evidence, axis, positions, angles, durations, factor, fitted, leans)
+    repeatability = _repeatability(evidence, axis, positions, factor, duration)
+    included = repeatability if evidence.with_repeatability and evidence.method == "gum" else None
+    recorded = replace(
+        _budget_input(evidence, axis, positions, angles, durations, factor, fitted, leans),
+        repeatability=included,
+    )
     budget = zero_offset_uncertainty(B, recorded, evidence.capability)
     if evidence.method == "annex-a":
         repeated = [row.contribution for row in budget.rows if row.symbol.startswith("N_")]
@@ -252,8 +260,9 @@ def _result(
         orientations=tuple(position.orientation.letters for position in positions),
         azimuths_deg=tuple(position.azimuth_deg for position in positions),
         durations_s=tuple(durations.tolist()),
-        repeatability_dps=repeatability,
-        repeatability_cycles=cycles,
+        repeatability_dps=repeatability.deviation_dps if repeatability else None,
+        repeatability_cycles=repeatability.cycles if repeatability else 0,
+        repeatability_included=included is not None,
         earth_rate_check=_earth_rate_check(evidence, schedule, positions, angles / durations),
         segments=names(takes),
     )
@@ -261,12 +270,9 @@ def _result(
 
 def _repeatability(
     evidence: Evidence, axis: Axis, positions: Sequence[_Position], factor: float, duration_s: float
-) -> tuple[float | None, int]:
-    """What B may be another day, °/s, and from how many power-ons it was found.
-
-    Experimental standard deviation of one B, where every position was repeated with power off between; else
-    (0 power-ons) the Allan deviation at the dwell, which knows nothing of the turn-on; None without noise.
-    """
+) -> Repeatability | None:
+    """Experimental standard deviation of one B, where every position was repeated with power off between;
+    else the Allan deviation at the dwell; None without noise."""
     repeats: dict[int, list[list[Take]]] = {}
     for position in positions:
         numbered: dict[int, list[Take]] = {}
@@ -285,9 +291,9 @@ def _repeatability(
             )
             for groups in whole
         ]
-        return float(np.std(offsets, ddof=1)), len(whole)
+        return Repeatability(float(np.std(offsets, ddof=1)), len(whole))
     noise = evidence.noise[axis].scaled(factor)
-    return (noise.allan_deviation(duration_s) if noise.white > 0.0 else None), 0
+    return Repeatability(noise.allan_deviation(duration_s), 0) if noise.white > 0.0 else None
 
 
 def _power_on(take: Take) -> int | None:

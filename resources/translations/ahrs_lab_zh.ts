@@ -1541,6 +1541,10 @@
         <translation>给出符合概率</translation>
     </message>
     <message>
+        <source>U of the zero offset includes its repeatability (another day)</source>
+        <translation>零偏的 U 包含其重复性（他日的变化）</translation>
+    </message>
+    <message>
         <source>all the usual ones</source>
         <translation>各常用单位</translation>
     </message>

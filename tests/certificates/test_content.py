@@ -364,6 +364,22 @@ def test_the_certificate_says_what_the_repeatability_is(
     assert words in whole_text(path)
 
 
+def test_u_with_the_repeatability_is_said_and_only_what_the_job_asks_is_certified(
+    tmp_path: Path, result: CalibrationResult, job: JobSheet
+) -> None:
+    offsets = {axis: replace(one, repeatability_included=True) for axis, one in result.zero_offset.items()}
+    included = replace(result, zero_offset=offsets)
+    asking = replace(job, requirements=replace(job.requirements, repeatability=True))
+    text = whole_text(certificate_pdf(included, asking, tmp_path / "c.pdf", "bilingual"))
+    assert "includes what B may be on another day" in text
+    assert "其 U 包含" in text
+    assert "does not cover" not in text
+    with pytest.raises(InputError, match="does not ask for"):
+        certificate_pdf(included, job, tmp_path / "d.pdf")
+    with pytest.raises(InputError, match="has it without"):
+        certificate_pdf(result, asking, tmp_path / "d.pdf")
+
+
 def test_a_change_of_unit_does_not_raise_a_digit() -> None:
     expanded = 0.015 / 3600.0
     assert expanded * 3600.0 > 0.015  # in floats by the last bit, which "up" must not see

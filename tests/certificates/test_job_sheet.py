@@ -100,6 +100,11 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
         ("K = 1e-5", "K = -1e-5", "“laboratory.capability.K” must be a number, not negative"),
         ("K = 1e-5", "Q = 1e-5", "“laboratory.capability.Q” is not known here"),
         ("# [units]", '[units]\nzero_offset = "rpm"', "“units.zero_offset” must be one of deg/s, deg/h"),
+        (
+            "# [units]",
+            "[uncertainty]\ninclude_repeatability = 1",
+            "“uncertainty.include_repeatability” must be",
+        ),
         ("notes = []", 'notes = "none"', "“notes” must be a list of at most"),
         ('format = "ahrs-lab-job"', 'format = "other"', "is not a job sheet"),
         ("version = 1", "version = 2", "“version” must be a whole number from 1 to 1"),

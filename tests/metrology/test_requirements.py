@@ -56,6 +56,7 @@ def requirements(draw: st.DrawFn) -> Requirements:
             draw(st.sampled_from(ZERO_OFFSET_UNITS)),
             draw(st.sampled_from(MISALIGNMENT_UNITS)),
         ),
+        draw(st.booleans()),
     )
 
 

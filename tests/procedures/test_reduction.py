@@ -211,6 +211,44 @@ def test_repeats_with_power_off_between_give_the_repeatability() -> None:
     assert powered.repeatability_dps is None  # no noise, no Allan deviation
 
 
+def test_u_of_b_includes_the_repeatability_where_the_job_asks() -> None:
+    offsets = (1.0e-3, 1.6e-3, 0.7e-3, 1.2e-3)
+    made = []
+    for number, offset in enumerate(offsets, start=1):
+        unit = VirtualUnit(B=(offset, 0.0, 0.0))
+        made += [_cycle(one, number, power_off=True) for one in unit.positions("x")]
+    recording = VirtualUnit().recording(made)
+    without, asked = (
+        reduce_recording(recording, repeatability=asked, trials=100_000).zero_offset["x"]
+        for asked in (False, True)
+    )
+    assert asked.B == without.B
+    assert (without.repeatability_included, asked.repeatability_included) == (False, True)
+    spread = statistics.stdev(offsets)
+    row = next(row for row in asked.uncertainty.rows if row.symbol == "R")
+    assert row.standard_uncertainty == pytest.approx(spread)
+    assert row.dof == 3.0
+    assert asked.uncertainty.standard == pytest.approx(np.hypot(without.uncertainty.standard, spread))
+    # t of 3 degrees of freedom at 95 %, but for the little that the bench adds
+    assert 3.0 < asked.uncertainty.coverage_factor < 3.183
+    # the trials draw it too: were it left out of their model, they would find the narrow U
+    check = asked.uncertainty.monte_carlo
+    assert check is not None
+    assert check.symmetric[1] - check.symmetric[0] == pytest.approx(
+        2.0 * asked.uncertainty.expanded, rel=0.04
+    )
+
+
+def test_the_method_of_annex_a_stays_as_printed() -> None:
+    made = []
+    for number, offset in enumerate((1.0e-3, 1.6e-3, 0.7e-3), start=1):
+        unit = VirtualUnit(B=(offset, 0.0, 0.0))
+        made += [_cycle(one, number, power_off=True) for one in unit.positions("x")]
+    recording = VirtualUnit().recording(made)
+    asked = reduce_recording(recording, uncertainty="annex-a", repeatability=True).zero_offset["x"]
+    assert not asked.repeatability_included
+
+
 def test_outputs_that_belong_to_other_axes_give_no_result() -> None:
     unit = VirtualUnit(L={"yx": 1.5, "xy": 0.4})
     result = reduce_recording(unit.recording([*unit.rates("x"), *unit.turns("x"), *unit.turns("y")]))

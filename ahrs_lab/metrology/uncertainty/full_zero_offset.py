@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ahrs_lab.metrology.result import Uncertainty
 from ahrs_lab.metrology.uncertainty.full_model import FullModel, Inputs, at, by_symbol
-from ahrs_lab.metrology.uncertainty.gum_zero_offset import EarthLeverage, ZeroOffsetEvidence
+from ahrs_lab.metrology.uncertainty.gum_zero_offset import REPEATABILITY, EarthLeverage, ZeroOffsetEvidence
 from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
@@ -63,7 +63,7 @@ class _Places:
 def zero_offset_model(B: float, evidence: ZeroOffsetEvidence, budget: Uncertainty) -> FullModel:
     """B = mean(N_i/T_i)/((1 + t)(1 + κ)) less what the errors let in of the Earth's rate."""
     noise = [row.symbol for row in budget.rows if row.symbol.startswith("N_")]
-    inputs = Inputs(by_symbol(budget, *noise, "q", "λ"))
+    inputs = Inputs(by_symbol(budget, *noise, "q", "λ", REPEATABILITY))
     relative = [inputs.add(row) for row in by_symbol(budget, "t", "K")]
     leverage = EarthLeverage.of(evidence)
     places = _add_errors(inputs, leverage, budget)

@@ -26,6 +26,32 @@ from ahrs_lab.metrology.zero_offset import EARTH_RATE_DPS
 
 Array = NDArray[np.float64]
 
+REPEATABILITY = "R"
+"""Symbol of the row that a job may ask for."""
+
+
+@dataclass(frozen=True)
+class Repeatability:
+    """What B may be another day: ``deviation_dps`` of a single B, from ``cycles`` power-ons; with 0 cycles
+    the Allan deviation at the dwell, which shows the bias instability alone.
+
+    As a row of U it counts once in full, for the one power-on that the user will meet. The noise of a single
+    determination is in it, and in the rows of the dwells again: on the safe side.
+    """
+
+    deviation_dps: float
+    cycles: int
+
+    def row(self) -> BudgetRow:
+        """Its row in the budget of B."""
+        source = (
+            Message("Repeatability over {count} power-ons: what B may be another day", count=self.cycles)
+            if self.cycles
+            else Message("Bias instability (Allan deviation at the dwell): what B may be another day")
+        )
+        dof = self.cycles - 1.0 if self.cycles else math.inf
+        return type_a(REPEATABILITY, source, "deg/s", self.deviation_dps, 1.0, dof)
+
 
 @dataclass(frozen=True)
 class ZeroOffsetEvidence:
@@ -51,12 +77,14 @@ class ZeroOffsetEvidence:
     scale: FittedScale = UNSCALED
     time_scaled: bool = False
     leans: float = 0.0
+    repeatability: Repeatability | None = None
 
 
 def zero_offset_uncertainty(
     B: float, evidence: ZeroOffsetEvidence, capability: BenchCapability
 ) -> Uncertainty:
-    """u_c and U of B in °/s. Rate random walk and flicker during the dwells belong to B, not to U (7.2)."""
+    """u_c and U of B in °/s. Rate random walk and flicker during the dwells belong to B, not to U (7.2); so
+    does what B may be another day, unless ``evidence.repeatability`` is given."""
     rows = [*_dwell_rows(evidence), *_earth_rows(evidence, capability), _resolution_row(evidence)]
     if evidence.leans > 0.0:
         rows.append(_vertical_row(evidence))
@@ -64,6 +92,8 @@ def zero_offset_uncertainty(
         rows.append(from_figure("t", Message("Time base"), "1", capability.figure("timing_relative"), -B))
     if evidence.scale.relative > 0.0:
         rows.append(evidence.scale.row(B))
+    if evidence.repeatability is not None:
+        rows.append(evidence.repeatability.row())
     return combine(rows)
 
 

@@ -175,11 +175,14 @@ def test_limits_are_typed_and_saved(screens: Screens, qtbot: QtBot) -> None:
     assert form.r.editor.isEnabled()
     form.r.line.clear()
     QTest.keyClicks(form.r.line, "0.5")
+    form.repeatability.click()
     assert form.refusal() is None
     assert editor.save(), screens.notices
     kept = requirements_from_json(screens.laboratory.job(editor.number()).limits_json)
     assert kept.limits == (Limit("K", -2000.0, -500.5, "ppm", nominal=1.0),)
     assert kept.rule == DecisionRule("guard-band", 0.5)
+    assert kept.repeatability
+    form.repeatability.click()
     form.lines[0].remove.click()
     assert form.text() == requirements_to_json(Requirements(rule=DecisionRule("guard-band", 0.5)))
 

@@ -41,6 +41,7 @@ class LimitsForm(Translated):
         self._kept = ""
         self._editable = True
         self.rule, self.r, self.probability = ChoiceField(), TextField(), TickField()
+        self.repeatability = TickField()
         self.scale_factor, self.zero_offset, self.misalignment = ChoiceField(), ChoiceField(), ChoiceField()
         self._heads = [Label(role="strong") for _ in range(3)]
         self._hint = Label(tone="muted", wrap=True)
@@ -57,6 +58,7 @@ class LimitsForm(Translated):
             self.rule,
             self.r,
             self.probability,
+            self.repeatability,
             self.scale_factor,
             self.zero_offset,
             self.misalignment,
@@ -81,6 +83,7 @@ class LimitsForm(Translated):
         column.addWidget(self._heads[1])
         column.addLayout(grid((self.rule, None, self.r)))
         column.addWidget(self.probability)
+        column.addWidget(self.repeatability)
         column.addSpacing(GAP)
         column.addWidget(self._heads[2])
         column.addLayout(grid((self.scale_factor, self.zero_offset, self.misalignment)))
@@ -101,6 +104,7 @@ class LimitsForm(Translated):
         self.rule.set_key(asked.rule.kind)
         self.r.set_text(text_of_number(asked.rule.r))
         self.probability.setChecked(asked.rule.probability)
+        self.repeatability.setChecked(asked.repeatability)
         self.scale_factor.set_key(asked.units.scale_factor)
         self.zero_offset.set_key(asked.units.zero_offset)
         self.misalignment.set_key(asked.units.misalignment)
@@ -123,7 +127,8 @@ class LimitsForm(Translated):
         self._editable = editable
         for field in (self.rule, self.r, self.scale_factor, self.zero_offset, self.misalignment):
             field.editor.setEnabled(editable)
-        self.probability.setEnabled(editable)
+        for tick in (self.probability, self.repeatability):
+            tick.setEnabled(editable)
         self.add_button.setVisible(editable)
         for line in self.lines:
             line.set_editable(editable)
@@ -140,7 +145,7 @@ class LimitsForm(Translated):
         try:
             r = 1.0 if kind == "simple" else number_of(self.r.text())
             rule = DecisionRule(kind, r, self.probability.isChecked())
-            return Requirements(tuple(limits), rule, self._units())
+            return Requirements(tuple(limits), rule, self._units(), self.repeatability.isChecked())
         except AhrsLabError as error:
             return error.message
 
@@ -204,6 +209,7 @@ class LimitsForm(Translated):
         self.rule.set_choices(list(rule_names().items()))
         self.r.set_name(self.tr("r, multiple of U"))
         self.probability.setText(self.tr("State the conformance probability"))
+        self.repeatability.setText(self.tr("U of the zero offset includes its repeatability (another day)"))
         usual = ("", self.tr("all the usual ones"))
         self.scale_factor.set_name(self.tr("Scale factor"))
         self.scale_factor.set_choices([("", self.tr("as delivered")), ("ppm", self.tr("also ppm from 1"))])

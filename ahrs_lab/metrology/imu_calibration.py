@@ -62,7 +62,8 @@ class RotationData:
     ``case_to_enu`` as the case stands at table angle 0. ``turned_deg``: the table's angle over the recording,
     positive anticlockwise from above. ``angle``: output summed over the time, shape (3,), rate_unit·s, and
     its standard error ``angle_error``. ``mean_cosine``, ``mean_sine``: time means over the table's angle, 0
-    at constant rate over whole turns: with them the Earth's horizontal rate is exact also with rests and ramps.
+    at constant rate over whole turns; with them the Earth's horizontal rate is exact also with rests and
+    ramps.
     """
 
     case_to_enu: Array
@@ -200,8 +201,8 @@ SCHEMES: Final[Mapping[str, tuple[str, ...]]] = {
 
 8 is table 2-12. The textbook names 12, 16, 20 and 24 without listing them: 12 is the 8 with the opposite
 azimuth of each added, so that the Earth's horizontal rate, and with it an error of north, cancels in every
-coefficient; 16, 20 and 24 add the two azimuths between for the faces of z, y and x. 24 are all orientations. 6
-is every face once, the fewest that balance.
+coefficient; 16, 20 and 24 add the two azimuths between for the faces of z, y and x. 24 are all orientations.
+6 is every face once, the fewest that balance.
 """
 
 

@@ -1,7 +1,7 @@
 """A calibration set as JSON, as ``imu-calibrate --json`` prints it, and back.
 
-The published keys are ``gyro``, ``accel``, ``standard_uncertainty``, ``condition_number``; the others make the
-round trip complete. A set from outside is not trusted: every number is checked, and one that cannot be
+The published keys are ``gyro``, ``accel``, ``standard_uncertainty``, ``condition_number``; the others make
+the round trip complete. A set from outside is not trusted: every number is checked, and one that cannot be
 inverted is refused.
 """
 
@@ -72,10 +72,12 @@ def to_json(found: ImuCalibration) -> dict[str, Any]:
 def from_json(data: object) -> ImuCalibration:
     """The inverse of :func:`to_json`; raises InputError naming the key that is wrong."""
     reader = JsonReader(data)
-    if reader.text("format", FORMAT) != FORMAT or ("version" in reader.data and reader.whole("version") > VERSION):
+    if reader.text("format", FORMAT) != FORMAT or (
+        "version" in reader.data and reader.whole("version") > VERSION
+    ):
         raise InputError(
-            "This is no calibration set that this software reads: “format” has to be {format}, “version” up to "
-            "{version}.",
+            "This is no calibration set that this software reads: “format” has to be {format}, “version” up "
+            "to {version}.",
             format=FORMAT,
             version=VERSION,
         )
@@ -83,7 +85,9 @@ def from_json(data: object) -> ImuCalibration:
     refuse_singular(coefficients)
     said = reader.object("provenance").data if reader.has("provenance") else {}
     provenance = {
-        str(key): value for key, value in said.items() if isinstance(value, (str, float, int)) and value == value
+        str(key): value
+        for key, value in said.items()
+        if isinstance(value, (str, float, int)) and value == value
     }
     return ImuCalibration(
         coefficients=coefficients,
@@ -91,7 +95,8 @@ def from_json(data: object) -> ImuCalibration:
         accel_unit=reader.choice("accel_unit", ACCEL_UNITS, ""),
         quality=_quality(reader) if reader.has("covariance") else None,
         warnings=tuple(
-            message_from_json(entry.value("message"), entry.key("message")) for entry in reader.objects("warnings")
+            message_from_json(entry.value("message"), entry.key("message"))
+            for entry in reader.objects("warnings")
         ),
         provenance=provenance,
     )
@@ -104,8 +109,8 @@ def refuse_singular(coefficients: Coefficients) -> None:
         for axis, value in zip(AXES, scale, strict=True):
             if not 1e-12 <= abs(value) <= 1e12:
                 raise InputError(
-                    "The calibration set's {name} of channel {axis} is {value}: a scale factor is neither zero "
-                    "nor without bounds. Calibrate the unit again.",
+                    "The calibration set's {name} of channel {axis} is {value}: a scale factor is neither "
+                    "zero nor without bounds. Calibrate the unit again.",
                     name=name,
                     axis=axis,
                     value=float(value),
@@ -122,7 +127,12 @@ def refuse_singular(coefficients: Coefficients) -> None:
 def _coefficients(found: Coefficients) -> dict[str, Any]:
     gyro, accel = found.gyro, found.accel
     return {
-        "gyro": {"E1": gyro.E1.tolist(), "B0": gyro.B0.tolist(), "Bf": gyro.Bf.tolist(), "E": gyro.E.tolist()},
+        "gyro": {
+            "E1": gyro.E1.tolist(),
+            "B0": gyro.B0.tolist(),
+            "Bf": gyro.Bf.tolist(),
+            "E": gyro.E.tolist(),
+        },
         "accel": {"K1": accel.K1.tolist(), "K0": accel.K0.tolist(), "K": accel.K.tolist()},
     }
 

@@ -144,7 +144,11 @@ def unit_doubts(record: InertialRecord) -> tuple[Message, ...]:
     if record.force is None or unit == "LSB" or not len(record):
         return ()
     gravity = float(normal_gravity_mps2(header.site.latitude_deg, header.site.altitude_m))
-    shown = float(np.median(np.linalg.norm(record.force, axis=1))) / TO_MPS2[unit]
+    sizes = np.linalg.norm(record.force, axis=1)
+    sizes = sizes[np.isfinite(sizes)]
+    if not len(sizes):
+        return ()
+    shown = float(np.median(sizes)) / TO_MPS2[unit]
     like = [u for u, factor in TO_MPS2.items() if u != "LSB" and 0.5 <= shown * factor / gravity <= 2.0]
     if unit in like:
         return ()

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ from ahrs_lab.messages import Message
 
 Array = NDArray[np.float64]
 
-AXES: Final = ("x", "y", "z")
+AXES: Final[tuple[Literal["x", "y", "z"], ...]] = ("x", "y", "z")
 OTHERS: Final = ((1, 2), (0, 2), (0, 1))
 """Of each channel, the two other axes: the columns of E and K that it has."""
 

@@ -23,4 +23,6 @@ class Command(Protocol):
 
 def commands() -> Sequence[Command]:
     """In the order of the help text."""
-    return ()
+    from ahrs_lab.cli.analysis import compensate, imu_calibrate
+
+    return (imu_calibrate, compensate)

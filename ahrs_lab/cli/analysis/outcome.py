@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ahrs_lab.analysis.report import report_text
 from ahrs_lab.laboratory.analyses.files import write_outcome
-from ahrs_lab.laboratory.analyses.kinds import AnalysisKind, Value
+from ahrs_lab.laboratory.analyses.kinds import AnalysisKind, Outcome, Value
 
 
 def out_option(parser: argparse.ArgumentParser) -> None:
@@ -22,9 +22,18 @@ def run_kind(
 ) -> int:
     """Run ``kind`` with its defaults and these ``settings``; prints JSON or text, writes ``--out``."""
     outcome = kind.run(bundles, {**kind.defaults(), **settings})
-    text = report_text(outcome.report)
-    if arguments.out is not None:
-        files = write_outcome(outcome, arguments.out)
-        text += "\n\nFiles: " + ", ".join(str(path) for path in files.values())
-    print(json.dumps(outcome.data, ensure_ascii=False, allow_nan=False) if arguments.json else text)
+    show(
+        outcome,
+        write_outcome(outcome, arguments.out).values() if arguments.out is not None else (),
+        arguments,
+    )
     return 0
+
+
+def show(outcome: Outcome, files: Iterable[Path], arguments: argparse.Namespace) -> None:
+    """Print what came out, as text with the ``files`` that were written, or as one JSON object."""
+    text = report_text(outcome.report)
+    written = ", ".join(str(path) for path in files)
+    if written:
+        text += f"\n\nFiles: {written}"
+    print(json.dumps(outcome.data, ensure_ascii=False, allow_nan=False) if arguments.json else text)

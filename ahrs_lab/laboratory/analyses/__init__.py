@@ -8,4 +8,6 @@ from ahrs_lab.laboratory.analyses.kinds import AnalysisKind
 
 def analyses() -> tuple[AnalysisKind, ...]:
     """All of them; imported when asked for."""
-    return ()
+    from ahrs_lab.laboratory.analyses import compensation, imu_calibration
+
+    return (imu_calibration.KIND, compensation.KIND)

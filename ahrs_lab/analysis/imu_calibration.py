@@ -49,6 +49,8 @@ Array = NDArray[np.float64]
 
 GRAVITY_NOTE = "gravity_mps2"
 """Key of ``[site]`` for the measured gravity of the place."""
+LARGEST_OUTPUT = 1e15
+"""Counts of 48 bits; beyond, sums of squares lose their digits."""
 NOMINAL_RATE_SCALE = {"deg/s": 1.0, "rad/s": radians(1.0)}
 """E1 of a perfect unit, by its rate_unit."""
 
@@ -85,7 +87,9 @@ def calibrate_recording(
     """
     header = recording.header
     usable = records(recording)
-    turning = [r for r in usable if r.segment.role == "turns"]
+    turning = [
+        r for r in usable if r.segment.turns and (r.segment.role == "turns" or r.segment.item == "rotation")
+    ]
     resting = [r for r in usable if r.segment.role == "position" and at_rest(r.segment)]
     _refuse_unfit(turning, resting)
     reference, measured = _reference(header, gravity_mps2)
@@ -157,6 +161,21 @@ def _reference(header: RecordingHeader, gravity_mps2: float | None) -> tuple[Ref
 
 
 def _refuse_unfit(turning: Sequence[InertialRecord], resting: Sequence[InertialRecord]) -> None:
+    for record in (*turning, *resting):
+        for name in (*GYRO, *ACCEL):
+            column = record.samples.get(name)
+            largest = (
+                0.0
+                if column is None
+                else float(np.max(np.abs(column), initial=0.0, where=np.isfinite(column)))
+            )
+            if largest > LARGEST_OUTPUT:
+                raise InputError(
+                    "{file}: {column} goes up to {largest}, which no sensor puts out: check the file.",
+                    file=record.segment.file,
+                    column=name,
+                    largest=f"{largest:.3g}",
+                )
     for record in resting:
         force = record.needed_force()
         empty = [name for name, column in zip(ACCEL, force.T, strict=True) if not np.isfinite(column).any()]

@@ -123,6 +123,14 @@ def test_another_recording_of_the_unit_comes_out_true(
     json.dumps(compensated.to_json(), allow_nan=False)
 
 
+def test_the_compensated_recording_can_be_packed(tmp_path: Path) -> None:
+    recorder = Recorder(unit(9))
+    source = read_bundle(recorder.write(tmp_path / "source", recorder.everything("6")[6:], "static"))
+    compensate_recording(source, ImuCalibration(recorder.unit)).write(tmp_path / "out.ahrsrec")
+    assert (tmp_path / "out.ahrsrec").is_file()
+    assert len(read_bundle(tmp_path / "out.ahrsrec").segments) == 6
+
+
 def test_nothing_is_compensated_twice(tmp_path: Path) -> None:
     recorder = Recorder(unit(9))
     found = a_set(tmp_path, recorder)

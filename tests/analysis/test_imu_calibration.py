@@ -289,6 +289,21 @@ def test_a_position_that_cannot_be_used_is_left_out_and_said(tmp_path: Path) -> 
     assert any("position_01.csv" in w.text() and "gyro_y" in w.text() for w in result.calibration.warnings)
 
 
+def test_outputs_of_no_sensor_are_named(tmp_path: Path) -> None:
+    recorder = Recorder(unit(1))
+    made = recorder.everything("6")
+    huge = made[1][1]["gyro_z"].copy()
+    huge[3] = 1e300
+    with pytest.raises(InputError, match=r"gyro_z goes up to 1e\+300"):
+        found(tmp_path, recorder, changed(made, 1, gyro_z=huge))
+
+
+def test_a_rotation_needs_no_role_to_be_turns(tmp_path: Path) -> None:
+    recorder = Recorder(unit(1))
+    made = altered(recorder.everything("6"), 0, role="position")
+    assert off(found(tmp_path, recorder, made).calibration.coefficients, recorder.unit) < 1e-9
+
+
 def test_a_column_without_a_number_is_named(tmp_path: Path) -> None:
     recorder = Recorder(unit(1))
     made = recorder.everything("6")

@@ -117,11 +117,12 @@ def calibrate_recording(
         accel_unit=header.device.accel_unit,
     )
     _refuse_unlikely_scale(found_set)
+    stated = capability or noted_capability(header.notes)
     bench, figures = bench_uncertainty(
         positions,
         rotations,
         reference,
-        capability or noted_capability(header.notes) or BenchCapability(),
+        stated or BenchCapability(),
         MEASURED_GRAVITY_MPS2 if measured else ANOMALY_MPS2,
     )
     assert found_set.quality is not None
@@ -129,7 +130,10 @@ def calibrate_recording(
         found_set,
         quality=replace(found_set.quality, bench=bench, bench_figures=figures),
         warnings=(*warnings, *found_set.warnings),
-        provenance=_provenance(recording, reference, measured, resting, software),
+        provenance={
+            **_provenance(recording, reference, measured, resting, software),
+            "bench_figures": "stated" if stated is not None else "clause 6",
+        },
     )
     return RecordedCalibration(found_set, positions, tuple(rotations))
 

@@ -66,9 +66,18 @@ def calibration_report(
                 "latitude, from the bench's figures; it is not in u (noise). Neither holds the change from "
                 "one switching-on to the next."
             ),
+            _bench_note(found),
             _gravity_note(found),
         ),
         warnings=found.warnings,
+    )
+
+
+def _bench_note(found: ImuCalibration) -> Message:
+    if found.provenance.get("bench_figures") == "stated":
+        return Message("The bench's figures are those that its certificates or the recording state.")
+    return Message(
+        "The recording states no figures of the bench: u (bench) assumes those of JJF 1536 clause 6."
     )
 
 

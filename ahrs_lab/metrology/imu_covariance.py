@@ -77,7 +77,8 @@ def _unexplained(keeps: Array, residuals: Array, errors: Array, drift: Array) ->
     spread = keeps @ (np.array([np.diag(error**2) for error in errors.T]) + drift)
     expected = float(np.sum(np.einsum("cij,cij->ci", spread, keeps).T / errors**2))
     ratio = float(np.sum((residuals / errors) ** 2)) / expected
-    return float(np.sqrt(ratio)) if ratio > float(chi2.ppf(1.0 - _RARE, free)) / free else 1.0
+    rare = ratio > 1.0 and chi2.sf(ratio * free, free) < _RARE
+    return float(np.sqrt(ratio)) if rare else 1.0
 
 
 def after_division(linear: Array, channel: int, covariance: Array) -> Array:

@@ -79,6 +79,13 @@ def test_the_positions_of_the_schemes_are_what_they_say() -> None:
             )
 
 
+@pytest.mark.parametrize(("scheme", "rank"), [("6", 4), ("8", 5), ("12", 6), ("16", 7), ("20", 7), ("24", 7)])
+def test_what_the_positions_could_tell_of_the_gyros_scale_by_the_earths_rate(scheme: str, rank: int) -> None:
+    matrices = [case_to_enu(letters) for letters in SCHEMES[scheme]]
+    earth = np.array([m.T @ REFERENCE.earth_rate_enu_dps for m in matrices]) / 0.004
+    assert np.linalg.matrix_rank(np.column_stack([position_matrix(matrices), earth])) == rank
+
+
 FACES = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
 EDGES = ((1, 1, 0), (1, 0, 1), (0, 1, 1), (1, -1, 0), (0, 1, -1), (-1, 0, 1))
 

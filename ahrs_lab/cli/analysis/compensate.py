@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 NAME = "compensate"
-HELP = "apply a calibration set to a recording"
+HELP = "Applies a calibration set to a recording."
 
 
 def options(parser: argparse.ArgumentParser) -> None:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 NAME = "imu-calibrate"
-HELP = "calibration set of an inertial measurement unit from turns and positions"
+HELP = "Calibrates an inertial measurement unit from turns and positions."
 
 
 def options(parser: argparse.ArgumentParser) -> None:

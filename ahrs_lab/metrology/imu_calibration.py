@@ -202,8 +202,8 @@ SCHEMES: Final[Mapping[str, tuple[str, ...]]] = {
 8 is table 2-12. The textbook names 12, 16, 20 and 24 without listing them: 12 is the 8 with the opposite
 azimuth of each added, so that the Earth's horizontal rate, and with it an error of north, cancels in every
 coefficient; 16, 20 and 24 add the two azimuths between for the faces of z, y and x. 24 are all orientations.
-6 is every face once, the fewest that balance. All have rank 4 of 4 for [1, f]; with the Earth's rate beside it
-(7 columns) 6, 8, 12 have rank 4, 5, 6, and only from 16 on 7: E1 and E come from turns.
+6 is every face once, the fewest that balance. All have rank 4 of 4 for [1, f]. With the Earth's rate beside
+it (7 columns) 6, 8, 12 have rank 4, 5, 6, and only from 16 on 7: E1 and E come from turns.
 """
 
 

@@ -109,6 +109,11 @@ class Sensors:
         """Fill ``shown``, shape (6, n): the brackets of (2-28) and (2-27), means over the n intervals between
         ``edges_s`` (shape (n + 1,)), with every drift and noise, before the scale factors."""
         self._feel(motion, case, edges_s, shown)
+        self.disturb(session, edges_s, shown)
+
+    def disturb(self, session: Session, edges_s: Array, shown: Array) -> None:
+        """Add every drift and noise to ``shown``, shape (6, n): what :meth:`show` made of the n intervals
+        between ``edges_s``."""
         between = Interpolation(0.5 * (edges_s[1:] + edges_s[:-1]))
         drift = self.drift(session, between.first, between.last)
         scratch = np.empty(shown.shape[1])
@@ -133,16 +138,18 @@ class Sensors:
                 across.add(a - 1)
             if b > a:
                 felt = case.integrals(piece, edges_s[a : b + 1], interval_s)
-                self._show(felt.angle_deg / interval_s, felt.velocity_mps / interval_s, shown[:, a:b])
+                self.show(felt.angle_deg / interval_s, felt.velocity_mps / interval_s, shown[:, a:b])
         for index in across:
             angle, velocity = np.zeros((3, 1)), np.zeros((3, 1))
             for start, stop, piece in motion.spans(edges_s[index], edges_s[index + 1]):
                 felt = case.integrals(piece, np.array([start, stop]))
                 angle += felt.angle_deg
                 velocity += felt.velocity_mps
-            self._show(angle / interval_s, velocity / interval_s, shown[:, index : index + 1])
+            self.show(angle / interval_s, velocity / interval_s, shown[:, index : index + 1])
 
-    def _show(self, rate_dps: Array, force_mps2: Array, shown: Array) -> None:
+    def show(self, rate_dps: Array, force_mps2: Array, shown: Array) -> None:
+        """Fill ``shown``, shape (6, n), with the brackets of (2-28) and (2-27) for ω and f of shape (3,
+        n)."""
         shown[:3] = self._settings.gyro.indicated_dps(rate_dps, force_mps2)
         shown[3:] = self._settings.accel.indicated_mps2(force_mps2)
 

@@ -71,14 +71,22 @@ def attitude_angles_deg(C_bn: Array) -> tuple[Array, Array, Array]:
 
     At pitch ±90° heading and roll cannot be told apart; roll is 0 there.
     """
-    forward, right, up = C_bn[..., :, 1], C_bn[..., :, 0], C_bn[..., :, 2]
-    cosine = np.hypot(forward[..., 0], forward[..., 1])
+    forward, right = np.moveaxis(C_bn[..., :, 1], -1, 0), np.moveaxis(C_bn[..., :, 0], -1, 0)
+    return angles_of_axes_deg(forward, right, C_bn[..., 2, 2])
+
+
+def angles_of_axes_deg(forward: Array, right: Array, up_of_up: Array) -> tuple[Array, Array, Array]:
+    """Heading, pitch and roll of the forward and right axes, shape (3, ...) east, north, up, and the up
+    component of the up axis: (2-67) with the quadrants of tables 2-7 and 2-8, by atan2."""
+    cosine = np.hypot(forward[0], forward[1])
     locked = cosine < _GIMBAL_LOCK_COSINE
-    pitch = np.arctan2(forward[..., 2], cosine)
-    roll = np.where(locked, 0.0, np.arctan2(-right[..., 2], up[..., 2]))
-    heading = np.where(
-        locked, np.arctan2(-right[..., 1], right[..., 0]), np.arctan2(forward[..., 0], forward[..., 1])
-    )
-    degrees = np.degrees(heading) % 360.0
+    pitch = np.arctan2(forward[2], cosine)
+    roll = np.arctan2(-right[2], up_of_up)
+    heading = np.arctan2(forward[0], forward[1])
+    if np.any(locked):
+        roll = np.where(locked, 0.0, roll)
+        heading = np.where(locked, np.arctan2(-right[1], right[0]), heading)
+    degrees = np.degrees(heading)
+    degrees = np.where(degrees < 0.0, degrees + 360.0, degrees)
     # a tiny negative angle would round up to 360 itself
     return np.where(degrees >= 360.0, 0.0, degrees), np.degrees(pitch), np.degrees(roll)

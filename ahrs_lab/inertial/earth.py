@@ -30,14 +30,16 @@ def normal_gravity_mps2(latitude_deg: ArrayLike, altitude_m: ArrayLike = 0.0) ->
     The textbook prints the constants of the older WGS-84 below (2-40); these are the current ones.
     """
     sine_squared = np.sin(np.radians(latitude_deg)) ** 2
-    height = np.asarray(altitude_m, dtype=np.float64) / SEMI_MAJOR_AXIS_M
-    surface = (
-        _EQUATORIAL_GRAVITY_MPS2
-        * (1.0 + _SOMIGLIANA * sine_squared)
-        / np.sqrt(1.0 - ECCENTRICITY_SQUARED * sine_squared)
-    )
+    root = np.sqrt(1.0 - ECCENTRICITY_SQUARED * sine_squared)
+    return normal_gravity_from_sine(sine_squared, root, np.asarray(altitude_m, dtype=np.float64))
+
+
+def normal_gravity_from_sine(sine_squared: Array, root: Array, altitude_m: Array) -> Array:
+    """The same of sin² L and √(1 − e² sin² L), for those who have them already."""
+    height = altitude_m / SEMI_MAJOR_AXIS_M
+    surface = _EQUATORIAL_GRAVITY_MPS2 * (1.0 + _SOMIGLIANA * sine_squared) / root
     slope = 1.0 + FLATTENING + _CENTRIFUGAL_RATIO - 2.0 * FLATTENING * sine_squared
-    return np.asarray(surface * (1.0 - 2.0 * slope * height + 3.0 * height**2), dtype=np.float64)
+    return np.asarray(surface * (1.0 - (2.0 * slope - 3.0 * height) * height), dtype=np.float64)
 
 
 def meridian_radius_m(latitude_deg: ArrayLike) -> Array:

@@ -13,6 +13,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_banded
 
 from ahrs_lab.inertial.earth import (
     EARTH_RATE_RADPS,
@@ -34,9 +35,8 @@ the start), rad; height, m."""
 _PIECE: Final = 4096
 _CELLS: Final = 512
 _REPETITIONS: Final = 80
-_SETTLED: Final = 1e-11
-_SCALE: Final = np.array([1.0, 1.0, 1.0, 1e-6, 1e-6, 1.0])[:, np.newaxis]
-"""What counts as much as 1 m/s: a micro-radian is some metres."""
+_SETTLED: Final = np.array([1e-11, 1e-11, 1e-11, 2e-15, 2e-15, 1e-11])
+"""What a state may still move by, m/s, rad, m, and as much of its own size: some units of the last place."""
 _SMALL_ANGLE: Final = 0.02
 
 
@@ -118,17 +118,17 @@ def _settled(start: Array, steps: Steps, states: Array) -> Array | None:
     """The states (6, m + 1), from a guess of them, which is overwritten."""
     states[:, 0] = start
     before = 0.0
+    allowed = (_SETTLED * (1.0 + np.abs(start)))[:, np.newaxis]
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for _ in range(_REPETITIONS):
             middle = 0.5 * (states[:, 1:] + states[:, :-1])
             new = _once_more(start, steps, middle)
-            moved = float(np.max(np.abs(new - states[:, 1:]) / _SCALE))
+            moved = float(np.max(np.abs(new - states[:, 1:]) / allowed))
             states[:, 1:] = new
             if not np.isfinite(moved):
                 return None
             # it moves less each time by a factor that itself falls: what is still to come is less than this
-            contraction = moved / before if before > moved else 1.0
-            if moved * contraction < _SETTLED * max(1.0, float(np.max(np.abs(new[:3, -1])))):
+            if moved * (moved / before if before > moved else 1.0) < 1.0:
                 return states
             before = moved
     return None
@@ -153,11 +153,10 @@ def _once_more(start: Array, steps: Steps, middle: Array) -> Array:
     _resolve(steps.pushed, sine, cosine, angle, new)
     new[EAST] += h * (turn_up * north - turn_north * up)
     new[NORTH] -= h * (turn_up * east + over_north * up)
-    pull = turn_north * east + over_north * north - normal_gravity_from_sine(sine * sine, root, altitude)
-    above = None if steps.reference_m is None else altitude - steps.reference_m
-    if above is not None:
-        pull -= steps.k2_per_s2 * above
-    new[UP] += h * pull
+    gravity = normal_gravity_from_sine(sine * sine, root, altitude)
+    new[UP] += h * (turn_north * east + over_north * north - gravity)
+    if steps.reference_m is not None:
+        held = _held(start, new[UP], steps, steps.reference_m)
     _summed(new[:3], start[:3])
     # the mean of the new velocity at the ends
     middle[0, 0], middle[1, 0], middle[2, 0] = 0.5 * (start[:3] + new[:3, 0])
@@ -165,9 +164,29 @@ def _once_more(start: Array, steps: Steps, middle: Array) -> Array:
     middle[:3, 1:] *= 0.5
     new[LATITUDE] = h * north / along_north
     new[ANGLE] = h * (east / (along_east * cosine) + EARTH_RATE_RADPS)
-    new[ALTITUDE] = h * up if above is None else h * (up - steps.k1_per_s * above)
+    new[ALTITUDE] = h * up
     _summed(new[3:], start[3:])
+    if steps.reference_m is not None:
+        new[UP], new[ALTITUDE] = held
     return new
+
+
+def _held(start: Array, push: Array, steps: Steps, reference_m: Array) -> Array:
+    """Shape (2, m): vertical velocity and height at the intervals' ends under the loop (2-61), for the
+    changes ``push`` (m,) of velocity by all else: v' = −k₂(h − h_b) + …, h' = v − k₁(h − h_b)."""
+    k1, k2, t = steps.k1_per_s, steps.k2_per_s2, 0.5 * steps.interval_s
+    # unknown in turn: velocity, height; rows of the bands: one above the diagonal, three below
+    bands = np.zeros((5, 2 * len(t)))
+    bands[1, 0::2], bands[1, 1::2] = 1.0, 1.0 + k1 * t
+    bands[0, 1::2], bands[2, 0::2] = k2 * t, -t
+    bands[3, 0:-2:2], bands[3, 1:-2:2] = -1.0, k1 * t[1:] - 1.0
+    bands[2, 1:-2:2], bands[4, 0:-2:2] = k2 * t[1:], -t[1:]
+    sides = np.empty(2 * len(t))
+    sides[0::2], sides[1::2] = push + 2 * t * k2 * reference_m, 2 * t * k1 * reference_m
+    sides[0] += start[UP] - k2 * t[0] * start[ALTITUDE]
+    sides[1] += start[ALTITUDE] - k1 * t[0] * start[ALTITUDE] + t[0] * start[UP]
+    solved = solve_banded((3, 1), bands, sides, overwrite_ab=True, overwrite_b=True, check_finite=False)
+    return np.asarray(solved.reshape(-1, 2).T, dtype=np.float64)
 
 
 def _summed(values: Array, start: Array) -> None:

@@ -36,7 +36,7 @@ POLE_DEG: Final = 89.9
 
 _BLOCK: Final = 32768
 _BLOCK_S: Final = 200.0
-_SHORTEST_BLOCK: Final = 32
+_SHORTEST_BLOCK: Final = 16
 
 
 class NavigationError(ValueError):

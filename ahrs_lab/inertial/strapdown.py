@@ -40,11 +40,15 @@ _SHORTEST_BLOCK: Final = 16
 
 
 class NavigationError(ValueError):
-    """The record cannot be navigated from this start; ``index``: the interval where it ends."""
+    """The numbers run away; ``index``: the first interval of the block in which they do."""
 
     def __init__(self, what: str, index: int) -> None:
         super().__init__(what)
         self.index = index
+
+
+class PoleError(NavigationError):
+    """The start or the path is too near a pole."""
 
 
 @dataclass(frozen=True)
@@ -123,8 +127,8 @@ def navigate(
 ) -> Navigation:
     """The states from ``start`` through n intervals (n,), of the increments ∫ω dt and ∫f dt (3, n).
 
-    ``samples``: see :mod:`ahrs_lab.inertial.increments`. Raises :class:`NavigationError` near a pole, and
-    where the numbers run away.
+    ``samples``: see :mod:`ahrs_lab.inertial.increments`. Raises :class:`PoleError` near a pole,
+    :class:`NavigationError` where the numbers run away.
     """
     count = angle_rad.shape[1]
     path = _Path(start, count)
@@ -163,14 +167,16 @@ class _Path:
         self.attitude[:, 0], self.velocity[:, 0] = start.attitude, start.velocity_enu_mps
         self.place[:, 0] = start.latitude_rad, start.longitude_rad, start.altitude_m
         if not abs(np.degrees(start.latitude_rad)) <= POLE_DEG:
-            raise NavigationError(f"latitude beyond {POLE_DEG}°", 0)
+            raise PoleError(f"latitude beyond {POLE_DEG}°", 0)
 
     def go(self, first: int, steps: Steps, attitude: Array) -> None:
         """On by ``steps`` from the interval ``first``, with the attitudes b→i (4, m + 1) at their edges."""
         edges = slice(first, first + len(steps) + 1)
         solved = travel(np.concatenate((self.velocity[:, first], self.place[:, first])), steps)
-        if solved is None or not np.max(np.abs(solved[3])) <= np.radians(POLE_DEG):
-            raise NavigationError("the numbers run away, or the path goes over a pole", first)
+        if solved is None:
+            raise NavigationError("the numbers run away", first)
+        if np.max(np.abs(solved[3])) > np.radians(POLE_DEG):
+            raise PoleError(f"latitude beyond {POLE_DEG}°", first)
         self.velocity[:, edges], self.place[:, edges] = solved[:3], solved[3:]
         self.attitude[:, edges] = product(conjugate(_n_to_e(solved[3], solved[4])), attitude)
 

@@ -23,6 +23,6 @@ class Command(Protocol):
 
 def commands() -> Sequence[Command]:
     """In the order of the help text."""
-    from ahrs_lab.cli.analysis import compensate, imu_calibrate
+    from ahrs_lab.cli.analysis import compensate, error_propagation, imu_calibrate, navigate
 
-    return (imu_calibrate, compensate)
+    return (imu_calibrate, compensate, navigate, error_propagation)

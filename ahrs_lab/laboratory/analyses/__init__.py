@@ -8,6 +8,11 @@ from ahrs_lab.laboratory.analyses.kinds import AnalysisKind
 
 def analyses() -> tuple[AnalysisKind, ...]:
     """All of them; imported when asked for."""
-    from ahrs_lab.laboratory.analyses import compensation, imu_calibration
+    from ahrs_lab.laboratory.analyses import (
+        compensation,
+        error_propagation,
+        imu_calibration,
+        navigation,
+    )
 
-    return (imu_calibration.KIND, compensation.KIND)
+    return (imu_calibration.KIND, compensation.KIND, navigation.KIND, error_propagation.KIND)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -12,7 +12,7 @@ from ahrs_lab.analysis.inertial_record import InertialRecord, records
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.read import Recording
-from ahrs_lab.recording.samples import GAP_STEPS
+from ahrs_lab.recording.samples import GAP_STEPS, Samples
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,7 @@ def navigation_record(recording: Recording) -> NavigationRecord:
     warnings: list[Message] = []
     parts: list[InertialRecord] = []
     for one in usable:
-        record = _whole_rows(one.needed_si(), warnings)
+        record = _whole_rows(one, warnings).needed_si()
         if parts:
             pause = float(record.t_s[0] - step_s - parts[-1].t_s[-1])
             if not -0.5 * step_s <= pause <= LONGEST_GAP_S:
@@ -135,14 +135,11 @@ def _whole_rows(record: InertialRecord, warnings: list[Message]) -> InertialReco
             count=int(np.sum(~good)),
         )
     )
-    return InertialRecord(
-        header=record.header,
-        segment=record.segment,
+    return replace(
+        record,
         t_s=record.t_s[good],
-        interval_s=record.interval_s[good],
+        interval_s=np.diff(record.t_s[good], prepend=record.t_s[0] - record.interval_s[0]),
         rate=record.rate[good],
         force=force[good],
-        gaps=record.gaps,
-        samples=type(record.samples)({name: c[good] for name, c in record.samples.columns.items()}),
-        warnings=record.warnings,
+        samples=Samples({name: column[good] for name, column in record.samples.columns.items()}),
     )

@@ -25,7 +25,8 @@ KIND = AnalysisKind(
     name=Message("Navigation"),
     explains=Message(
         "Attitude, velocity and position from gyros and accelerometers, from the state in [initial] on. "
-        "Where the recording has columns of attitude, velocity or position, the errors against them are shown."
+        "Where the recording has columns of attitude, velocity or position, the errors against them are "
+        "shown."
     ),
     inputs=(Message("Recording with [initial]"),),
     settings=(

@@ -139,7 +139,7 @@ def _once_more(start: Array, steps: Steps, middle: Array) -> Array:
     their middles; the place with the new velocity, which is put into ``middle``."""
     east, north, up, latitude, angle, altitude = middle
     h = steps.interval_s
-    sine, cosine = _sine_and_cosine(latitude)
+    sine, cosine = sine_and_cosine(latitude)
     root_squared = 1.0 - ECCENTRICITY_SQUARED * sine * sine
     root = np.sqrt(root_squared)
     along_east = SEMI_MAJOR_AXIS_M / root
@@ -197,14 +197,14 @@ def _summed(values: Array, start: Array) -> None:
 def _resolve(pushed: Array, sine: Array, cosine: Array, angle: Array, new: Array) -> None:
     """The velocity changes in east, north, up: (2-52) with the meridian's angle in inertial space."""
     x, y, z = pushed
-    sine_angle, cosine_angle = _sine_and_cosine(angle)
+    sine_angle, cosine_angle = sine_and_cosine(angle)
     outward = cosine_angle * x + sine_angle * y
     new[EAST] = cosine_angle * y - sine_angle * x
     new[NORTH] = cosine * z - sine * outward
     new[UP] = cosine * outward + sine * z
 
 
-def _sine_and_cosine(angle: Array) -> tuple[Array, Array]:
+def sine_and_cosine(angle: Array) -> tuple[Array, Array]:
     """Of angles that differ little: by series about the first, to rounding."""
     first = float(angle[0])
     d = angle - first

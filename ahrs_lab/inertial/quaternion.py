@@ -6,7 +6,9 @@ product is sixteen array products.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +17,9 @@ from ahrs_lab.inertial.attitude import angles_of_axes_deg, attitude_matrix
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+_SMALL_SQUARE: Final = 1e-3
+"""Of the half-angle, rad²: up to it the series of sine and cosine are right to rounding."""
 
 
 def product(q: Array, p: Array) -> Array:
@@ -38,8 +43,17 @@ def conjugate(q: Array) -> Array:
 
 def from_rotation_vector(vector: Array) -> Array:
     """Shape (4, n) of rotation vectors (3, n), rad."""
-    half = 0.5 * np.sqrt(vector[0] ** 2 + vector[1] ** 2 + vector[2] ** 2)
-    return np.concatenate((np.cos(half)[np.newaxis], 0.5 * np.sinc(half / np.pi) * vector))
+    x, y, z = vector
+    square = 0.25 * (x * x + y * y + z * z)
+    q = np.empty((4, vector.shape[1]))
+    if np.max(square, initial=0.0) < _SMALL_SQUARE:
+        q[0] = 1.0 - square * (1 / 2 - square * (1 / 24 - square * (1 / 720 - square * (1 / 40320))))
+        half = 0.5 - square * (1 / 12 - square * (1 / 240 - square * (1 / 10080)))
+    else:
+        angle = np.sqrt(square)
+        q[0], half = np.cos(angle), 0.5 * np.sinc(angle / np.pi)
+    np.multiply(half, vector, out=q[1:])
+    return q
 
 
 def from_matrix(C: Array) -> Array:
@@ -108,12 +122,7 @@ def running_product(start: Array, steps: Array) -> Array:
     for i in range(1, length):
         _complex_product((a[i - 1], b[i - 1]), (a[i], b[i], c[i], d[i]), work)
         a[i], b[i] = work
-    before = np.empty((2, rows, 1), dtype=np.complex128)
-    before[:, 0, 0] = complex(start[0], start[1]), complex(start[2], start[3])
-    for i in range(1, rows):
-        (p, q), r, s = before[:, i - 1, 0].tolist(), complex(a[-1, i - 1]), complex(b[-1, i - 1])
-        whole = np.array([p * r - q * s.conjugate(), p * s + q * r.conjugate()])
-        before[:, i, 0] = whole / np.linalg.norm(whole)
+    before = _one_after_the_other(start, a[-1], b[-1])
     result = np.empty((4, count + 1))
     result[:, 0] = start
     # (2, rows, length): in the order of the steps again
@@ -123,6 +132,18 @@ def running_product(start: Array, steps: Array) -> Array:
     for pair, values in zip((result[:2], result[2:]), whole.reshape(2, -1)[:, :count], strict=True):
         pair[0, 1:], pair[1, 1:] = values.real, values.imag
     return result
+
+
+def _one_after_the_other(start: Array, a: Complex, b: Complex) -> Complex:
+    """Shape (2, rows, 1): what stands before each row, of the rows' whole products; of length 1 again."""
+    p, q = complex(start[0], start[1]), complex(start[2], start[3])
+    before = []
+    for r, s in zip(a.tolist(), b.tolist(), strict=True):
+        before.append((p, q))
+        p, q = p * r - q * s.conjugate(), p * s + q * r.conjugate()
+        length = math.hypot(p.real, p.imag, q.real, q.imag)
+        p, q = p / length, q / length
+    return np.array(before, dtype=np.complex128).T[..., np.newaxis]
 
 
 def _side_by_side(steps: Array, rows: int, length: int) -> tuple[Complex, Complex]:

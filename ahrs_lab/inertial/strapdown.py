@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ahrs_lab.inertial.block_of_steps import K1_PER_S, K2_PER_S2, Steps, travel
+from ahrs_lab.inertial.block_of_steps import K1_PER_S, K2_PER_S2, Steps, sine_and_cosine, travel
 from ahrs_lab.inertial.earth import EARTH_RATE_RADPS
 from ahrs_lab.inertial.increments import Samples, rotation_vectors, velocity_changes
 from ahrs_lab.inertial.quaternion import (
@@ -132,7 +132,7 @@ def navigate(
     """
     count = angle_rad.shape[1]
     path = _Path(start, count)
-    bi = product(_n_to_e(start.latitude_rad, start.longitude_rad), start.attitude)
+    bi = product(_n_to_e(path.place[0, :1], path.place[1, :1])[:, 0], start.attitude)
     for first, last, margin in _blocks(interval_s):
         inner = slice(first - margin.start, last - margin.start)
         angle, interval = angle_rad[:, margin], interval_s[margin]
@@ -193,9 +193,9 @@ def _blocks(interval_s: Array) -> list[tuple[int, int, slice]]:
     ]
 
 
-def _n_to_e(latitude: Array | float, longitude: Array | float) -> Array:
-    """Shape (4, …): east, north, up to the Earth's axes, the transpose of (2-52): first about east, then
+def _n_to_e(latitude: Array, longitude: Array) -> Array:
+    """Shape (4, n): east, north, up to the Earth's axes, the transpose of (2-52): first about east, then
     about the Earth's axis."""
-    tilt, turn = 0.25 * np.pi - 0.5 * np.asarray(latitude), 0.25 * np.pi + 0.5 * np.asarray(longitude)
-    a, b, c, d = np.cos(turn), np.sin(turn), np.cos(tilt), np.sin(tilt)
+    d, c = sine_and_cosine(0.25 * np.pi - 0.5 * latitude)
+    b, a = sine_and_cosine(0.25 * np.pi + 0.5 * longitude)
     return np.stack([a * c, a * d, b * d, b * c])

@@ -181,10 +181,11 @@ class ErrorPropagation:
                 (("error_vn_mps", "n"), ("error_ve_mps", "e")),
             ),
             (
-                Message("Error of attitude"),
+                Message("Error of level"),
                 Message("error, ″"),
-                (("tilt_east_arcsec", "e"), ("tilt_north_arcsec", "n"), ("error_heading_arcsec", "u")),
+                (("tilt_east_arcsec", "e"), ("tilt_north_arcsec", "n")),
             ),
+            (Message("Error of heading"), Message("error, ″"), (("error_heading_arcsec", "u"),)),
         ):
             curves = tuple(Curve(_NAMES[key], self.hours, series[key], axis=axes[axis]) for key, axis in keys)
             charts.append(Chart(title, Message("time, h"), label, curves, marks))

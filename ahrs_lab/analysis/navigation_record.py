@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ahrs_lab.analysis.inertial_record import InertialRecord, records
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
+from ahrs_lab.recording.clean_rows import WRONG_RATE
 from ahrs_lab.recording.read import Recording
 from ahrs_lab.recording.samples import GAP_STEPS, Samples
 
@@ -47,7 +48,7 @@ def navigation_record(recording: Recording) -> NavigationRecord:
             "start.",
             file=counting[0].segment.file,
         )
-    step_s = 1.0 / recording.header.device.sample_rate_hz
+    step_s = _step_s(usable[0], 1.0 / recording.header.device.sample_rate_hz)
     warnings: list[Message] = []
     parts: list[InertialRecord] = []
     for one in usable:
@@ -68,6 +69,12 @@ def navigation_record(recording: Recording) -> NavigationRecord:
         parts.append(record)
         warnings += record.warnings
     return _joined(parts, step_s, warnings)
+
+
+def _step_s(record: InertialRecord, nominal_s: float) -> float:
+    """The sample interval: the header's, unless the times contradict it (which the reader has said)."""
+    typical = float(np.median(np.diff(record.t_s))) if len(record) > 2 else nominal_s
+    return nominal_s if abs(typical / nominal_s - 1.0) <= WRONG_RATE else typical
 
 
 def _joined(parts: list[InertialRecord], step_s: float, warnings: list[Message]) -> NavigationRecord:

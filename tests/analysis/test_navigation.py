@@ -225,6 +225,16 @@ def test_what_is_wrong_with_the_header_is_said(
         navigated(tmp_path / "a")
 
 
+def test_a_wrong_sample_rate_in_the_header_makes_no_gaps(tmp_path: Path, flight: Flight) -> None:
+    header = write_flight(tmp_path / "a", flight) / "recording.toml"
+    text = header.read_text(encoding="utf-8")
+    header.write_text(text.replace("sample_rate_hz = 50.0", "sample_rate_hz = 100.0"), encoding="utf-8")
+    result = navigated(tmp_path / "a")
+    assert any("correct sample_rate_hz" in w.text() for w in result.warnings)
+    assert not any("bridged" in w.text() for w in result.warnings)
+    assert result.series["heading_deg"][-1] == pytest.approx(50.0, abs=1e-6)
+
+
 def test_the_place_may_stand_with_the_site(tmp_path: Path, flight: Flight) -> None:
     whole = navigated(write_flight(tmp_path / "a", flight)).to_json()
     header = tmp_path / "a" / "recording.toml"

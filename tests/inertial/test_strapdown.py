@@ -6,8 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from ahrs_lab.inertial.attitude import attitude_matrix
 from ahrs_lab.inertial.quaternion import from_matrix
 from ahrs_lab.inertial.strapdown import (
     HeightReference,
@@ -56,7 +59,8 @@ def flown(flight: Flight, **options: Any) -> Navigation:
 def worst(flight: Flight, path: Navigation) -> tuple[float, float, float]:
     """Largest differences: attitude rad, velocity m/s, place m."""
     turned = np.max(np.abs(path.matrices() - flight.C_bn))
-    east = (path.longitude_rad - flight.longitude_rad) * np.cos(flight.latitude_rad) * RADIUS_M
+    away = np.remainder(path.longitude_rad - flight.longitude_rad + np.pi, 2 * np.pi) - np.pi
+    east = away * np.cos(flight.latitude_rad) * RADIUS_M
     north, up = (path.latitude_rad - flight.latitude_rad) * RADIUS_M, path.altitude_m - flight.altitude_m
     place = np.max(np.abs([east, north, up]))
     return (
@@ -74,6 +78,31 @@ def test_exact_increments_return_the_trajectory() -> None:
     assert place < 1e-4
     # what is left falls with the interval
     assert worst(coarse, flown(coarse))[0] > 8 * attitude
+
+
+@pytest.mark.parametrize("latitude_deg", [-89.0, -35.0, 0.0, 60.0, 89.0])
+def test_anywhere_on_the_earth(latitude_deg: float) -> None:
+    start = Start(latitude_deg=latitude_deg, longitude_deg=-179.99, altitude_m=9000.0, heading_deg=260.0)
+    flight = fly(start, FLIGHT[1:3], 100.0)
+    attitude, velocity, place = worst(flight, flown(flight))
+    assert attitude < 1e-7
+    assert velocity < 1e-5
+    assert place < 3e-3
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.floats(0.0, 360.0), st.floats(-90.0, 90.0), st.floats(-180.0, 180.0))
+def test_however_the_unit_is_mounted_its_path_is_the_carriers(
+    heading: float, pitch: float, roll: float
+) -> None:
+    flight = fly(START, FLIGHT[1:3], 50.0)
+    turned = flight.mounted(attitude_matrix(heading, pitch, roll))
+    carrier, unit = flown(flight), flown(turned)
+    assert unit.latitude_rad == pytest.approx(carrier.latitude_rad, abs=1e-14)
+    assert unit.velocity_enu_mps == pytest.approx(carrier.velocity_enu_mps, abs=1e-9)
+    assert unit.matrices() == pytest.approx(
+        carrier.matrices() @ attitude_matrix(heading, pitch, roll), abs=1e-12
+    )
 
 
 def test_coning_and_sculling_need_their_corrections() -> None:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 NAME = "error-propagation"
-HELP = "how one error of an inertial system at rest grows over hours"
+HELP = "Shows how one error of an inertial system at rest grows over hours."
 
 
 def options(parser: argparse.ArgumentParser) -> None:
     """The error, where, how long."""
-    from ahrs_lab.cli.analysis.outcome import out_option
-
     parser.add_argument(
         "source",
         metavar="SOURCE",
@@ -21,7 +20,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("size", type=float, metavar="SIZE", help="in the unit named with the source")
     parser.add_argument("--latitude", type=float, required=True, metavar="DEG", help="of the place, °")
     parser.add_argument("--hours", type=float, default=48.0, help="how long (default: 48)")
-    out_option(parser)
+    parser.add_argument("--out", type=Path, metavar="DIR", help="result and series go there")
 
 
 def run(arguments: argparse.Namespace) -> int:

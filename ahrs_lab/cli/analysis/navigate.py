@@ -6,13 +6,11 @@ import argparse
 from pathlib import Path
 
 NAME = "navigate"
-HELP = "strapdown navigation of a recording from its [initial] state"
+HELP = "Navigates a recording from its [initial] state: attitude, velocity, position."
 
 
 def options(parser: argparse.ArgumentParser) -> None:
     """The recording, the height loop, where the series goes."""
-    from ahrs_lab.cli.analysis.outcome import out_option
-
     parser.add_argument("bundle", type=Path, metavar="BUNDLE", help="recording with gyros and accelerometers")
     parser.add_argument(
         "--altitude-damping",
@@ -20,7 +18,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         default="none",
         help="baro: the height follows the column altitude_m, or the initial height (default: none)",
     )
-    out_option(parser)
+    parser.add_argument("--out", type=Path, metavar="DIR", help="result and series go there")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -63,3 +63,25 @@ def earth_rate_enu_dps(latitude_deg: float) -> Array:
     """Shape (3,), °/s: the Earth's rate in east, north, up (2-3)."""
     latitude = np.radians(latitude_deg)
     return np.array([0.0, EARTH_RATE_DPS * np.cos(latitude), EARTH_RATE_DPS * np.sin(latitude)])
+
+
+def earth_rate_enu_radps(latitude_deg: ArrayLike) -> Array:
+    """ω_ie^n (2-3), rad/s: shape (..., 3) for latitudes of shape (...)."""
+    latitude = np.radians(np.asarray(latitude_deg, dtype=np.float64))
+    return EARTH_RATE_RADPS * np.stack((np.zeros_like(latitude), np.cos(latitude), np.sin(latitude)), axis=-1)
+
+
+def transport_rate_enu_radps(
+    velocity_enu_mps: ArrayLike, latitude_deg: ArrayLike, altitude_m: ArrayLike = 0.0
+) -> Array:
+    """ω_en^n (2-43), rad/s: how fast east, north and up turn against the Earth with the place; (..., 3).
+
+    ``velocity_enu_mps`` (..., 3); ``latitude_deg``, ``altitude_m`` (...). The up component grows beyond all
+    bounds at the poles, where east and north have no meaning.
+    """
+    velocity = np.asarray(velocity_enu_mps, dtype=np.float64)
+    altitude = np.asarray(altitude_m, dtype=np.float64)
+    about_east = -velocity[..., 1] / (meridian_radius_m(latitude_deg) + altitude)
+    about_north = velocity[..., 0] / (transverse_radius_m(latitude_deg) + altitude)
+    about_up = about_north * np.tan(np.radians(latitude_deg))
+    return np.stack(np.broadcast_arrays(about_east, about_north, about_up), axis=-1)

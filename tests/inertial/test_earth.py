@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from ahrs_lab.inertial.earth import (
+    EARTH_RATE_DPS,
     earth_rate_enu_dps,
+    earth_rate_enu_radps,
     meridian_radius_m,
     normal_gravity_mps2,
+    transport_rate_enu_radps,
     transverse_radius_m,
 )
+
+Array = NDArray[np.float64]
 
 
 @pytest.mark.parametrize(
@@ -41,3 +47,57 @@ def test_earth_rate_in_beijing() -> None:
 
 def test_arrays_keep_their_shape() -> None:
     assert normal_gravity_mps2(np.array([0.0, 45.0]), np.array([0.0, 100.0])).shape == (2,)
+
+
+def test_earth_rate_of_many_latitudes() -> None:
+    latitudes = np.array([[-90.0, 0.0, 39.9042], [45.0, 60.0, 90.0]])
+    rates = np.degrees(earth_rate_enu_radps(latitudes))
+    assert rates.shape == (2, 3, 3)
+    for latitude, rate in zip(latitudes.ravel(), rates.reshape(-1, 3), strict=True):
+        np.testing.assert_allclose(rate, earth_rate_enu_dps(float(latitude)), atol=1e-18)
+    np.testing.assert_allclose(np.linalg.norm(rates, axis=-1), EARTH_RATE_DPS, rtol=1e-15)
+    np.testing.assert_allclose(3600.0 * rates[0, 2], [0.0, 11.5382751, 9.6489326], atol=5e-8)
+
+
+def _enu_from_ecef(latitude: float, longitude: float) -> Array:
+    """Shape (3, 3): rows east, north, up."""
+    sl, cl, so, co = np.sin(latitude), np.cos(latitude), np.sin(longitude), np.cos(longitude)
+    return np.array([[-so, co, 0.0], [-sl * co, -sl * so, cl], [cl * co, cl * so, sl]])
+
+
+def _ecef_m(latitude: float, longitude: float, altitude_m: float) -> Array:
+    """WGS-84 as EPSG method 9602 defines it."""
+    a, f = 6378137.0, 1.0 / 298.257223563
+    square = f * (2.0 - f)
+    n = a / np.sqrt(1.0 - square * np.sin(latitude) ** 2)
+    level = (n + altitude_m) * np.cos(latitude)
+    up = ((1.0 - square) * n + altitude_m) * np.sin(latitude)
+    return np.array([level * np.cos(longitude), level * np.sin(longitude), up])
+
+
+@pytest.mark.parametrize("latitude_deg", [-75.0, -10.0, 0.0, 39.9042, 80.0])
+@pytest.mark.parametrize("altitude_m", [0.0, 12_000.0])
+def test_transport_rate_is_the_turning_of_the_local_frame(latitude_deg: float, altitude_m: float) -> None:
+    """East, north, up of geodetic geometry before and after a small move: what turned them, by how much."""
+    latitude, longitude, step = np.radians(latitude_deg), 0.7, 2e-6
+    here = _enu_from_ecef(latitude, longitude)
+    for move in ((step, 0.0), (0.0, step), (0.7 * step, -0.4 * step)):
+        before, after = (
+            (latitude + sign * move[0] / 2, longitude + sign * move[1] / 2) for sign in (-1.0, 1.0)
+        )
+        velocity = here @ (_ecef_m(*after, altitude_m) - _ecef_m(*before, altitude_m))
+        turned = _enu_from_ecef(*after) @ _enu_from_ecef(*before).T  # I − [ω×]
+        rate = 0.5 * np.array(
+            [turned[1, 2] - turned[2, 1], turned[2, 0] - turned[0, 2], turned[0, 1] - turned[1, 0]]
+        )
+        np.testing.assert_allclose(
+            transport_rate_enu_radps(velocity, latitude_deg, altitude_m), rate, rtol=1e-8, atol=1e-15
+        )
+
+
+def test_transport_rates_of_a_whole_flight() -> None:
+    velocity = np.array([[100.0, 0.0, 0.0], [0.0, 100.0, 5.0]])
+    rates = transport_rate_enu_radps(velocity, np.array([45.0, 45.0]), np.array([0.0, 1000.0]))
+    np.testing.assert_allclose(rates[0], [0.0, 100.0 / 6388838.290121, 100.0 / 6388838.290121], rtol=1e-12)
+    np.testing.assert_allclose(rates[1], [-100.0 / 6368381.815620, 0.0, 0.0], rtol=1e-12)
+    np.testing.assert_array_equal(transport_rate_enu_radps(velocity, 45.0)[0], rates[0])

@@ -22,7 +22,8 @@ FEWEST_PRESENT: Final = 0.95
 """Share of an average's values that have to be there."""
 
 _CHUNK: Final = 8192
-"""Values worked on at a time: what stays in the processor's cache is summed several times faster, and too little for the threads of a linear algebra library."""
+"""Values worked on at a time: what stays in the processor's cache is summed several times faster. So few, too,
+that a linear algebra library does not start threads for each piece."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ class AllanVariance:
     @property
     def deviation(self) -> Array:
         """Shape (f,), the unit of the rate."""
-        return np.sqrt(self.variance)
+        return np.asarray(np.sqrt(self.variance))
 
 
 def octave_factors(count: int) -> Counts:
@@ -46,8 +47,8 @@ def octave_factors(count: int) -> Counts:
 
 
 def all_factors(count: int) -> Counts:
-    """Every factor up to half of ``count`` values; beyond :data:`MOST_FACTORS` of them as many or fewer, evenly
-    on the logarithmic scale."""
+    """Every factor up to half of ``count`` values; beyond :data:`MOST_FACTORS` of them so many or fewer,
+    evenly on the logarithmic scale."""
     longest = count // 2
     if longest <= MOST_FACTORS:
         return np.arange(1, longest + 1, dtype=np.int64)

@@ -4,8 +4,8 @@ An overlapping Allan variance is a mean of squares of second differences z of th
 the rate), so that cov(σ̂²(m₁), σ̂²(m₂)) = 2 ΣΣ cov(z₁, z₂)² / (4 m₁² m₂² M₁ M₂), M being the number of
 differences (Isserlis). cov(z₁, z₂) at a lag is the double second difference of the phase's generalised
 covariance, which is Q²·δ for noise of the angle, −N²|t|/2 for white rate noise, B²·t² ln|t|/2π for flicker,
-K²|t|³/12 for random walk of the rate (Greenhall's method; NIST SP 1065 5.3 has its tables). A ramp of the rate
-is no noise: it shifts z by R·m² and adds 4 ΣΣ R²m₁²m₂² cov(z₁, z₂).
+K²|t|³/12 for random walk of the rate (Greenhall's method; NIST SP 1065 5.3 has its tables). A ramp of the
+rate is no noise: it shifts z by R·m² and adds 4 ΣΣ R²m₁²m₂² cov(z₁, z₂).
 
 Everything here counts time in sample intervals, and so do the squared coefficients Q², N², B², K², R².
 """
@@ -13,6 +13,7 @@ Everything here counts time in sample intervals, and so do the squared coefficie
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -65,6 +66,7 @@ def allan_covariance(factors: Counts, differences: Counts, count: int) -> AllanC
     return AllanCovariance(quadratic * more, ramp * more)
 
 
+@lru_cache(maxsize=4096)  # a record's channels ask for the same ones
 def pair_moments(shorter: int, longer: int, count: int) -> tuple[Array, Array]:
     """Shapes (4, 4) and (4,): what :class:`AllanCovariance` holds for one pair of factors."""
     lag, smooth, point = _lags(shorter, longer, count - shorter - longer)
@@ -81,8 +83,8 @@ def pair_moments(shorter: int, longer: int, count: int) -> tuple[Array, Array]:
 
 
 def _lags(shorter: int, longer: int, last: int) -> tuple[Array, Array, Array]:
-    """Lags from 0 to ``last``, their weight in a sum of a function that is smooth between the kinks, and 1 for
-    the kinks themselves."""
+    """Lags from 0 to ``last``, their weight in a sum of a function that is smooth between the kinks, and 1
+    for the kinks themselves."""
     kinks = np.array([0, shorter, longer - shorter, longer, longer + shorter])
     doublings = shorter * 2 ** np.arange(1, 2 + int(np.log2(max(1, last) / shorter + 1.0)))
     # finer towards each kink, where a function of the shorter time bends
@@ -102,7 +104,7 @@ def _lags(shorter: int, longer: int, last: int) -> tuple[Array, Array, Array]:
     lags.append(edges.astype(np.float64))
     weights.append(ends)
     point = np.concatenate((np.zeros(len(lags[0]) + len(lags[1])), np.isin(edges, kinks)))
-    return np.concatenate(lags), np.concatenate(weights), point
+    return np.concatenate(lags), np.concatenate(weights).astype(np.float64), point
 
 
 def _cross_covariances(shorter: int, longer: int, lag: Array) -> tuple[Array, Array, Array, Array]:

@@ -65,7 +65,7 @@ class AllanFit:
     @property
     def describes(self) -> bool:
         """Whether χ² is within what scatter allows (three of its standard deviations)."""
-        return self.chi_squared <= self.dof + 3.0 * np.sqrt(2.0 * max(1, self.dof))
+        return bool(self.chi_squared <= self.dof + 3.0 * np.sqrt(2.0 * max(1, self.dof)))
 
 
 def allan_columns(tau: Array) -> Array:
@@ -169,7 +169,9 @@ class _Problem:
         """Unconstrained, with ``term`` beside the used ones."""
         whiten = np.linalg.inv(np.linalg.cholesky(self.spread(solution.squares)[first:, first:]))
         used = (*solution.used, term)
-        found = _least_squares(whiten @ self.columns[first:, used], whiten @ self.variance[first:], used, False)
+        found = _least_squares(
+            whiten @ self.columns[first:, used], whiten @ self.variance[first:], used, False
+        )
         assert found is not None
         return found
 

@@ -23,6 +23,18 @@ class Command(Protocol):
 
 def commands() -> Sequence[Command]:
     """In the order of the help text."""
-    from ahrs_lab.cli.analysis import compensate, error_propagation, imu_calibrate, navigate
+    from ahrs_lab.cli.analysis import (
+        allan,
+        compensate,
+        error_propagation,
+        imu_calibrate,
+        navigate,
+    )
 
-    return (imu_calibrate, compensate, navigate, error_propagation)
+    return (
+        allan,
+        imu_calibrate,
+        compensate,
+        navigate,
+        error_propagation,
+    )

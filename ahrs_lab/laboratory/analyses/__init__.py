@@ -9,10 +9,17 @@ from ahrs_lab.laboratory.analyses.kinds import AnalysisKind
 def analyses() -> tuple[AnalysisKind, ...]:
     """All of them; imported when asked for."""
     from ahrs_lab.laboratory.analyses import (
+        allan,
         compensation,
         error_propagation,
         imu_calibration,
         navigation,
     )
 
-    return (imu_calibration.KIND, compensation.KIND, navigation.KIND, error_propagation.KIND)
+    return (
+        allan.KIND,
+        imu_calibration.KIND,
+        compensation.KIND,
+        navigation.KIND,
+        error_propagation.KIND,
+    )

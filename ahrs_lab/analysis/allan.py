@@ -248,7 +248,7 @@ def _channel(
     return AllanChannel(
         name,
         unit,
-        shown.factors * interval_s,
+        np.asarray(shown.factors * interval_s, dtype=np.float64),
         shown.deviation,
         low,
         high,

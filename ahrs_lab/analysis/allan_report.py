@@ -136,6 +136,16 @@ def _notes(result: AllanResult) -> list[Message]:
                 missing=result.missing,
             )
         )
+    notes += [
+        Message(
+            "{channel}: averaging times under {tau} s are no noise of these terms (a filter, vibration) and "
+            "are left out of the fit.",
+            channel=one.name,
+            tau=f"{2**one.fit.first * result.interval_s:.3g}",
+        )
+        for one in result.channels
+        if one.fit is not None and one.fit.first
+    ]
     notes += [sentence for one in result.channels if (sentence := _sentence(one)) is not None]
     notes.append(
         Message(

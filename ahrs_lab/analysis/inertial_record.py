@@ -12,6 +12,7 @@ from math import radians
 import numpy as np
 from numpy.typing import NDArray
 
+from ahrs_lab.analysis.rate_unit import agrees, gravity_ratio, shows_earth, table_ratio, turns_ratio
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.earth import STANDARD_GRAVITY_MPS2, normal_gravity_mps2
 from ahrs_lab.messages import Message
@@ -137,11 +138,67 @@ def inertial_record(header: RecordingHeader, recorded: RecordedSegment) -> Inert
 def unit_doubts(record: InertialRecord) -> tuple[Message, ...]:
     """Sentences that say which unit a column seems to be in, instead of the header's; none where all fits.
 
-    The median specific force has to lie within a factor 2 of gravity.
+    The median specific force has to lie within a factor 2 of gravity; for the rates see
+    :mod:`ahrs_lab.analysis.rate_unit`.
     """
+    return (*_force_doubts(record), *_rate_doubts(record)) if len(record) else ()
+
+
+def _rate_doubts(record: InertialRecord) -> tuple[Message, ...]:
+    unit = record.header.device.rate_unit
+    if unit == "LSB":
+        return ()
+    other = "rad/s" if unit == "deg/s" else "deg/s"
+    factor = TO_RADPS[other] / TO_RADPS[unit]
+    segment, table = record.segment, record.samples.get("table_rate_dps")
+    ratios = {
+        Message("the table's rate"): table_ratio(record.rate, radians(segment.rate_dps))
+        if segment.rate_dps
+        else None,
+        Message("the rate that the table reports"): table_ratio(record.rate, np.radians(table))
+        if table is not None
+        else None,
+        Message("the turns of the table"): turns_ratio(record.angle_increments_rad, segment.turns or 0),
+        Message("how gravity turns in the accelerometers"): gravity_ratio(
+            record.angle_increments_rad, record.interval_s, record.force
+        )
+        if record.force is not None
+        else None,
+    }
+    known = {against: ratio for against, ratio in ratios.items() if ratio is not None}
+    if any(agrees(ratio) for ratio in known.values()):
+        return ()
+    against = next((a for a, ratio in known.items() if agrees(ratio * factor)), None)
+    still = not known and segment.item not in ("dynamic", "rotation", "misalignment")
+    if still and _shows_earth_times(record, factor):
+        against = Message("the Earth's rate")
+    if against is None:
+        return ()
+    return (
+        Message(
+            "the gyros’ rates in {unit} do not agree with {against}: these look like {likely}; correct "
+            "rate_unit in recording.toml.",
+            unit=unit,
+            against=against,
+            likely=other,
+        ),
+    )
+
+
+def _shows_earth_times(record: InertialRecord, factor: float) -> bool:
+    """Whether the mean rate at rest is the Earth's after the factor, and not before."""
+    up = record.segment.orientation.matrix[2]
+    if record.force is not None and np.all(np.isfinite(record.force)):
+        mean = record.force.mean(axis=0)
+        up = mean / max(float(np.linalg.norm(mean)), 1e-300)
+    rate, latitude = record.rate.mean(axis=0), record.header.site.latitude_deg
+    return shows_earth(factor * rate, up, latitude) and not shows_earth(rate, up, latitude)
+
+
+def _force_doubts(record: InertialRecord) -> tuple[Message, ...]:
     header = record.header
     unit = header.device.accel_unit
-    if record.force is None or unit == "LSB" or not len(record):
+    if record.force is None or unit == "LSB":
         return ()
     gravity = float(normal_gravity_mps2(header.site.latitude_deg, header.site.altitude_m))
     sizes = np.linalg.norm(record.force, axis=1)

@@ -22,7 +22,7 @@ FEWEST_PRESENT: Final = 0.95
 """Share of an average's values that have to be there."""
 
 _CHUNK: Final = 8192
-"""Values worked on at a time: what stays in the processor's cache is summed several times faster. So few, too,
+"""Values worked on at a time: what stays in the processor's cache is summed several times faster. And so few
 that a linear algebra library does not start threads for each piece."""
 
 
@@ -83,7 +83,8 @@ def overlapping_allan_variance(rate: Array, factors: Counts) -> AllanVariance:
     mean = float(np.mean(rate)) if len(rate) else 0.0
     # the mean is taken out so that the running sum stays small: an offset does not enter anyway
     if np.isfinite(mean):
-        squares = _sums_of_squares(_running_sum(rate - mean), factors)
+        with np.errstate(over="ignore"):  # readings too large to square
+            squares = _sums_of_squares(_running_sum(rate - mean), factors)
         differences = np.maximum(0, len(rate) - 2 * factors + 1)
     else:
         there = np.isfinite(rate)

@@ -103,8 +103,9 @@ def _lags(shorter: int, longer: int, last: int) -> tuple[Array, Array, Array]:
     ends = 1.0 - 0.5 * np.isin(edges, low[~short]) - 0.5 * np.isin(edges, high[~short])
     lags.append(edges.astype(np.float64))
     weights.append(ends)
-    point = np.concatenate((np.zeros(len(lags[0]) + len(lags[1])), np.isin(edges, kinks)))
-    return np.concatenate(lags), np.concatenate(weights).astype(np.float64), point
+    point = np.zeros(sum(map(len, lags)))
+    point[-len(edges) :] = np.isin(edges, kinks)
+    return np.concatenate(lags), np.concatenate(weights), point
 
 
 def _cross_covariances(shorter: int, longer: int, lag: Array) -> tuple[Array, Array, Array, Array]:
@@ -134,5 +135,6 @@ def equivalent_dof(variance: float, spread: float) -> float:
 def confidence_limits(variance: Array, dof: Array, confidence: float) -> tuple[Array, Array]:
     """Low and high limit of the deviation, by χ²."""
     tail = 0.5 * (1.0 - confidence)
-    low, high = (np.sqrt(0.5 * variance * dof / gammaincinv(0.5 * dof, p)) for p in (1.0 - tail, tail))
+    squares = (0.5 * variance * dof / gammaincinv(0.5 * dof, p) for p in (1.0 - tail, tail))
+    low, high = (np.asarray(np.sqrt(square), dtype=np.float64) for square in squares)
     return low, high

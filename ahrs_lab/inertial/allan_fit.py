@@ -4,6 +4,9 @@
 octaves, weighted by the covariance that the fitted terms themselves give the estimates
 (:mod:`ahrs_lab.inertial.allan_covariance`), in a few passes; octaves share data, so their correlation counts.
 
+An output that is filtered or shaken is no noise of the five terms at the shortest octaves: these are left out
+as far as the rest is described (χ²).
+
 A term is shown where it is needed: of all subsets of the terms the one with the least χ² + 6.63 a term, so
 that a term which is not there is taken in about one case in a hundred. The others are 0, with the upper limit
 (95 %, one-sided) that the data still allow.
@@ -30,12 +33,9 @@ PENALTY: Final = 6.63
 MODEL_ERROR: Final = 0.005
 """Of the variance, relative: no sensor follows the five terms better than that, and a single octave known to
 10⁻⁴ shall not outweigh all others."""
-MISFIT: Final = 4.0
-"""Standard deviations below the fit from which the shortest octave is left out: the output is filtered there,
-which the terms do not know."""
-
 _ONE_SIDED = 1.645
 _FEWEST = 4
+"""Octaves: with less, all is taken for white noise."""
 _PASSES = 8
 _ORDER = (WHITE, FLICKER, WALK, QUANTISATION, RAMP)
 """What is believed first where the data cannot tell."""
@@ -64,8 +64,13 @@ class AllanFit:
 
     @property
     def describes(self) -> bool:
-        """Whether χ² is within what scatter allows (three of its standard deviations)."""
-        return bool(self.chi_squared <= self.dof + 3.0 * np.sqrt(2.0 * max(1, self.dof)))
+        """Whether χ² is within what scatter allows."""
+        return _describes(self.chi_squared, self.dof)
+
+
+def _describes(chi_squared: float, dof: int) -> bool:
+    """Four of its standard deviations: estimates from a few differences scatter more than normally."""
+    return bool(chi_squared <= dof + 4.0 * np.sqrt(2.0 * max(1, dof)))
 
 
 def allan_columns(tau: Array) -> Array:
@@ -90,10 +95,7 @@ def fit_allan(octaves: AllanVariance, covariance: AllanCovariance, interval_s: f
     size = float(variance.max())
     tau = octaves.factors.astype(np.float64)
     problem = _Problem(allan_columns(tau), variance / size, covariance)
-    first, fit = 0, problem.solved(0)
-    while len(tau) - first > _FEWEST and problem.too_low(fit, first):
-        first += 1
-        fit = problem.solved(first)
+    first, fit = _first_described(problem)
     unit = np.sqrt(size) * in_seconds(interval_s)
     upper = _upper(problem, fit, first)
     return AllanFit(
@@ -143,16 +145,10 @@ class _Problem:
         expected = self.columns @ squares
         return self.covariance.of(squares) + np.diag((MODEL_ERROR * expected) ** 2)
 
-    def too_low(self, solution: _Solution, first: int) -> bool:
-        """Whether the shortest octave lies below what the terms can be."""
-        expected = float(self.columns[first] @ solution.squares)
-        spread = float(self.spread(solution.squares)[first, first])
-        return bool(self.variance[first] < expected - MISFIT * np.sqrt(spread))
-
     def _chosen(self, first: int, spread: Array) -> _Solution:
         most = max(1, min(5, len(self.variance) - first - 2))
         subsets = [s for k in range(1, most + 1) for s in combinations(_ORDER, k)]
-        if len(self.variance) - first < 3:
+        if len(self.variance) - first < _FEWEST:
             subsets = [(WHITE,)]
         whiten = np.linalg.inv(np.linalg.cholesky(spread))
         target = whiten @ self.variance[first:]
@@ -174,6 +170,18 @@ class _Problem:
         )
         assert found is not None
         return found
+
+
+def _first_described(problem: _Problem) -> tuple[int, _Solution]:
+    """From the first octave on; where the terms cannot follow that, from the shortest octave on from which
+    they can; where there is none, from the first, and χ² says so."""
+    octaves = len(problem.variance)
+    whole = problem.solved(0)
+    for first in range(max(1, octaves - _FEWEST)):
+        solution = problem.solved(first) if first else whole
+        if _describes(solution.chi_squared, octaves - first - len(solution.used)):
+            return first, solution
+    return 0, whole
 
 
 def _cost(solution: _Solution) -> float:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
 
-MOST_FACTORS: Final = 1000
+MOST_FACTORS: Final = 500
 """Of :func:`all_factors`: each costs a pass over the record."""
 FEWEST_PRESENT: Final = 0.95
 """Share of an average's values that have to be there."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ahrs_lab.analysis.allan import AllanResult, Taus, analyse_allan, longest_at_rest
 from ahrs_lab.analysis.allan_report import allan_report
@@ -42,19 +44,22 @@ def _run(bundles: Sequence[Path], settings: Mapping[str, Value]) -> Outcome:
     return Outcome(result.to_json(), allan_report(result), _series(result))
 
 
-def _series(result: AllanResult) -> dict[str, list[float | str]]:
+def _series(result: AllanResult) -> dict[str, NDArray[Any]]:
     """One row a channel and averaging time."""
-    columns: dict[str, list[float | str]] = {
-        "channel": [], "unit": [], "tau_s": [], "oadev": [], "oadev_low": [], "oadev_high": [], "fit": []
-    }  # fmt: skip
-    for one in result.channels:
-        fitted = one.fit.deviation(one.tau_s) if one.fit is not None else np.zeros(len(one.tau_s))
-        rows = (one.tau_s, one.deviation, one.low, one.high, fitted)
-        columns["channel"] += [one.name] * len(one.tau_s)
-        columns["unit"] += [one.unit] * len(one.tau_s)
-        for key, values in zip(("tau_s", "oadev", "oadev_low", "oadev_high", "fit"), rows, strict=True):
-            columns[key] += values.tolist()
-    return columns
+    rows = [
+        (one.name, one.unit, *row)
+        for one in result.channels
+        for row in zip(
+            one.tau_s,
+            one.deviation,
+            one.low,
+            one.high,
+            one.fit.deviation(one.tau_s) if one.fit is not None else np.zeros(len(one.tau_s)),
+            strict=True,
+        )
+    ]
+    names = ("channel", "unit", "tau_s", "oadev", "oadev_low", "oadev_high", "fit")
+    return {name: np.array(column) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
 
 
 KIND = AnalysisKind(

@@ -1,9 +1,10 @@
 """Grades of sensors and tables to start from.
 
 Noise, scale error and misalignment are typical of the grade. Guesses, where data sheets of the grade do not
-agree or do not say: turn-on, quantisation, rate random walk, the accelerometer noise of the ring-laser and
-tactical fibre-optic units. A unit's own constants (which axis is off by how much) are set so that no two axes
-agree, for a calibration to find.
+agree or do not say: turn-on, quantisation, rate random walk, noise and bias instability of the
+accelerometers of the ring-laser and tactical fibre-optic units (what data sheets give of these is the bias
+from one power-on to the next). A unit's own constants (which axis is off by how much) are set so that no two
+axes agree, for a calibration to find.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ class Grade:
 
     Gyros: angle random walk °/√h, bias ``instability`` and ``turn_on`` °/h, ``scale`` error, ``nonlinearity``
     and ``misalignment`` relative, ``g_sensitivity`` °/h/g, ``quantisation_arcsec``. Accelerometers: noise
-    (m/s²)·√s, bias instability m/s², scale error relative.
+    (m/s²)·√s, bias instability and turn-on m/s², scale error relative.
     """
 
     angle_random_walk: float
@@ -53,6 +54,7 @@ class Grade:
     accel_scale: float
     g_sensitivity: float = 0.0
     quantisation_arcsec: float = 0.0
+    accel_turn_on: float = 0.0
     range_dps: float = 400.0
 
 
@@ -70,12 +72,14 @@ GRADES: Mapping[str, Grade] = {
     "tactical-rlg": Grade(
         angle_random_walk=0.125, instability=1.0, turn_on=1.0, quantisation_arcsec=1.0,
         scale=1.5e-4, nonlinearity=1e-5, misalignment=3e-4, range_dps=800.0,
-        accel_noise=50 * _MICRO_G, accel_instability=1000 * _MICRO_G, accel_scale=3e-4,
+        accel_noise=50 * _MICRO_G, accel_instability=50 * _MICRO_G, accel_turn_on=1000 * _MICRO_G,
+        accel_scale=3e-4,
     ),
     "tactical-fog": Grade(
         angle_random_walk=0.07, instability=1.0, turn_on=1.0, quantisation_arcsec=0.1,
         scale=1e-4, nonlinearity=1e-5, misalignment=1e-4, range_dps=800.0,
-        accel_noise=50 * _MICRO_G, accel_instability=300 * _MICRO_G, accel_scale=3e-4,
+        accel_noise=50 * _MICRO_G, accel_instability=30 * _MICRO_G, accel_turn_on=300 * _MICRO_G,
+        accel_scale=3e-4,
     ),
     "fog": Grade(
         angle_random_walk=0.012, instability=0.05, turn_on=0.05, quantisation_arcsec=0.05,
@@ -85,13 +89,20 @@ GRADES: Mapping[str, Grade] = {
     "navigation-rlg": Grade(
         angle_random_walk=0.002, instability=0.0035, turn_on=0.003, quantisation_arcsec=0.5,
         scale=5e-6, nonlinearity=1e-6, misalignment=5e-5,
-        accel_noise=10 * _MICRO_G, accel_instability=25 * _MICRO_G, accel_scale=1e-4,
+        accel_noise=10 * _MICRO_G, accel_instability=5 * _MICRO_G, accel_turn_on=25 * _MICRO_G,
+        accel_scale=1e-4,
     ),
     # the classes of the textbook's tables 2-1 and 2-2, at the middle of their ranges; their noise is a guess
     "dynamically-tuned": Grade(
         angle_random_walk=0.02, instability=0.3, turn_on=0.5, g_sensitivity=3.0,
         scale=2e-4, nonlinearity=5e-5, misalignment=1e-4,
         accel_noise=20 * _MICRO_G, accel_instability=30 * _MICRO_G, accel_scale=1e-4,
+    ),
+    # a tuning fork of quartz, the rate grade of table 2-1
+    "vibratory": Grade(
+        angle_random_walk=0.6, instability=10.0, turn_on=36.0,
+        scale=1e-3, nonlinearity=5e-4, misalignment=5e-3, range_dps=100.0,
+        accel_noise=200 * _MICRO_G, accel_instability=100 * _MICRO_G, accel_scale=1e-3,
     ),
     "strategic": Grade(
         angle_random_walk=1e-4, instability=5e-4, turn_on=5e-4, quantisation_arcsec=0.05,
@@ -133,9 +144,10 @@ def sensor_preset(name: object) -> SensorSettings:
         gyro_stability=Stability(turn_on=grade.turn_on * _DPH),
         accel=AccelModel(
             scale_factor=_one_plus(grade.accel_scale, _SCALE_PATTERN),
-            bias_mps2=_times(10.0 * grade.accel_instability, _BIAS_PATTERN),
+            bias_mps2=_times(max(10.0 * grade.accel_instability, 3.0 * grade.accel_turn_on), _BIAS_PATTERN),
             misalignment_rad=cross,
         ),
+        accel_stability=Stability(turn_on=grade.accel_turn_on),
         accel_noise=AccelNoise(
             velocity_random_walk_mps_per_sqrt_s=grade.accel_noise,
             bias_instability_mps2=grade.accel_instability,

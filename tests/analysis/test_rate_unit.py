@@ -1,4 +1,4 @@
-"""A wrong unit of the rates is told where something else tells the rate, and never for a gyro's own errors."""
+"""A wrong unit of the rates is told where something else tells the rate, never for a gyro's own errors."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_no_bias_and_no_rate_of_any_grade_raises_a_false_alarm(grade: str, unit:
         assert not _told(_record(still, unit, unit, segment, np.tile(9.8 * orientation.matrix[2], (2000, 1))))
         assert not _told(_record(still, unit, unit, segment))
         for rate_dps in (0.5, -7.0, 100.0):
-            turning = _gyros(grade, np.tile(earth + [0.0, 0.0, rate_dps], (400, 1)), rng)
+            turning = _gyros(grade, np.tile(earth + np.array([0.0, 0.0, rate_dps]), (400, 1)), rng)
             assert not _told(_record(turning, unit, unit, replace(segment, rate_dps=rate_dps)))
 
 

@@ -127,16 +127,14 @@ def test_allan_deviation_of_a_long_record_gives_all_coefficients_back() -> None:
         settings = _device(sample_rate_hz=rate_hz, outputs=("rate",))
         settings = replace(settings, sensor=SensorSettings(gyro_noise=noise))
         samples = after(ready(settings), 15_000.0)
-        for tau_s in (0.2, 10.0, 300.0):
+        for tau_s in (0.2, 1.0, 10.0, 300.0):
             m = round(tau_s * rate_hz)
             squares = [overlapping_allan_deviation(samples[name], (m,))[0] ** 2 for name in GYRO]
             found = np.sqrt(np.mean(squares)) * 3600.0
             # in °/h and s: Q = 2, as 1″/s is 1 °/h; N = 0.3·60; K = 40/60
             angle = 3.0 * (2.0 / tau_s) ** 2
             walk, floor = (0.3 * 60.0) ** 2 / tau_s, (0.664282 * 20.0) ** 2
-            # below some seconds the flicker is not made, being under the white noise
-            slow = (floor if tau_s > 2.0 else 0.0) + (40.0 / 60.0) ** 2 * tau_s / 3.0
-            expected = np.sqrt(angle + walk + slow)
+            expected = np.sqrt(angle + walk + floor + (40.0 / 60.0) ** 2 * tau_s / 3.0)
             error = 1.0 / np.sqrt(2.0 * 3.0 * (15_000.0 / tau_s - 1.0))
             assert found == pytest.approx(expected, rel=4.0 * error + 0.02), (rate_hz, tau_s)
 

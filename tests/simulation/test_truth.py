@@ -118,5 +118,6 @@ def test_the_mean_offset_of_a_drifting_unit_is_what_its_samples_average_to() -> 
     drift = truth(bench).mean_offset_dps(start, start + 600.0)
     latitude = np.radians(39.9042)
     earth = np.degrees(7.292115e-5) * np.array([0.0, np.cos(latitude), np.sin(latitude)])
-    # the table leans and stands off north by arc seconds
-    np.testing.assert_allclose(means, drift + np.array([1.1, 0.9, 1.0]) * earth, atol=1e-6)
+    # the table leans and stands off north by arc seconds; what of the bias instability is faster than the
+    # drift's grid has no share at low frequency, but its ends over 600 s: 30 °/h for half a second in 600
+    np.testing.assert_allclose(means, drift + np.array([1.1, 0.9, 1.0]) * earth, atol=2.5e-5)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -47,6 +48,14 @@ def _peer() -> Any:
     return allantools
 
 
+def _ours(rate: Array, factors: NDArray[np.int64]) -> Array:
+    return overlapping_allan_variance(rate, factors).deviation
+
+
+def _theirs(peer: Any, rate: Array, factors: NDArray[np.int64]) -> Array:
+    return np.asarray(peer.oadev(rate, rate=1.0, data_type="freq", taus=factors.astype(np.float64))[1])
+
+
 def main() -> None:
     """Print the figures."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -60,17 +69,12 @@ def main() -> None:
     if peer is None:
         print("allantools is not installed: no comparison")
     for name, factors in (("octaves", octave_factors(options.points)), ("taus", _ninety_two(options.points))):
-        own, cpu, wall = _best(
-            lambda f=factors: overlapping_allan_variance(rate, f).deviation, options.repeats
-        )  # type: ignore[misc]
+        own, cpu, wall = _best(partial(_ours, rate, factors), options.repeats)
         print(f"{options.points} points, {len(factors)} {name}: {cpu:.2f} s process time, {wall:.2f} s wall")
         if peer is None:
             continue
 
-        def theirs(taus: Array = factors.astype(np.float64)) -> Array:
-            return np.asarray(peer.oadev(rate, rate=1.0, data_type="freq", taus=taus)[1])
-
-        other, peer_cpu, peer_wall = _best(theirs, options.repeats)
+        other, peer_cpu, peer_wall = _best(partial(_theirs, peer, rate, factors), options.repeats)
         same = len(other) == len(own)
         apart = float(np.max(np.abs(other / own[: len(other)] - 1.0)))
         print(

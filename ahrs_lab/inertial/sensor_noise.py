@@ -125,7 +125,7 @@ class FastFlicker:
 
     Only the processes that the channel's white noise does not cover are made. All are one filter of one white
     noise, whose spectrum is the sum of theirs. From two samples on, the Allan variance of flicker alone is
-    within 12 % below a second and within 5 % above.
+    within 12 % up to a second and within 5 % beyond.
     """
 
     def __init__(

@@ -302,10 +302,13 @@ def test_the_range_saturates_the_output() -> None:
 
 def test_each_power_on_draws_its_own_bias_and_starts_the_clock_of_the_unit_anew() -> None:
     settings = SimulationSettings.ideal(
-        sensor=SensorSettings(gyro_stability=Stability(turn_on=0.01, start_up=(0.0, 0.5, 0.0)))
+        sensor=SensorSettings(
+            gyro_stability=Stability(turn_on=0.01, start_up=(0.0, 0.5, 0.0)),
+            accel_stability=Stability(turn_on=0.02),
+        )
     )
     bench = ready(settings)
-    biases = []
+    biases, accel_biases = [], []
     for _ in range(40):
         bench.supply.off()
         bench.clock.wait(5.0)
@@ -314,6 +317,8 @@ def test_each_power_on_draws_its_own_bias_and_starts_the_clock_of_the_unit_anew(
         samples = bench.ahrs.read()
         assert samples["counter"][0] == 1
         biases.append(float(samples["gyro_x"][-1]) - EARTH_UP_DPS)
+        accel_biases.append(float(samples["accel_y"][-1]))
+    assert np.std(accel_biases) == pytest.approx(0.02, rel=0.4)
     assert np.std(biases) == pytest.approx(0.01, rel=0.4)
     assert len(set(biases)) == 40
     start_up = after(bench, 600.0)["gyro_y"]

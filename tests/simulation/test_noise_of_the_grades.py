@@ -102,7 +102,7 @@ def test_flicker_is_there_below_a_second_where_white_noise_does_not_cover_it(
     ]
     expected = 0.441271 + white**2 / tau
     scatter = np.std(found, axis=0) / expected
-    allowed = np.where(tau < 1.0, 0.12, 0.05) + 2.0 * scatter
+    allowed = np.where(tau <= 1.0, 0.12, 0.05) + 2.0 * scatter
     np.testing.assert_array_less(np.abs(np.mean(found, axis=0) / expected - 1.0), allowed)
 
 

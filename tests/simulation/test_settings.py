@@ -144,3 +144,23 @@ def test_a_grade_keeps_what_its_line_says(name: str) -> None:
     largest = max(abs(e) for row in sensor.gyro.misalignment_rad for e in row)
     assert largest == pytest.approx(grade.misalignment)
     assert sensor.gyro_noise.bias_instability_deg_per_h == grade.instability
+    assert sensor.gyro_stability.turn_on == pytest.approx(grade.turn_on / 3600.0)
+    assert sensor.accel_stability.turn_on == grade.accel_turn_on
+    assert sensor.accel_noise.bias_instability_mps2 == grade.accel_instability
+
+
+@pytest.mark.parametrize(
+    ("name", "drift_deg_per_h", "nonlinearity", "range_dps"),
+    [
+        ("strategic", 0.0015, 1e-6, 100.0),
+        ("navigation-rlg", 0.015, 1e-5, 400.0),
+        ("vibratory", None, 1e-3, 50.0),
+    ],
+)
+def test_grades_are_those_of_table_2_1(
+    name: str, drift_deg_per_h: float | None, nonlinearity: float, range_dps: float
+) -> None:
+    grade = GRADES[name]
+    assert grade.instability > 0.5 if drift_deg_per_h is None else grade.instability < drift_deg_per_h
+    assert grade.nonlinearity < nonlinearity
+    assert grade.range_dps >= range_dps

@@ -146,7 +146,7 @@ def _notes(result: AllanResult) -> list[Message]:
         for one in result.channels
         if one.fit is not None and one.fit.first
     ]
-    notes += [sentence for one in result.channels if (sentence := _sentence(one)) is not None]
+    notes += _sentences(result)
     notes.append(
         Message(
             "Fit: σ²(τ) = 3Q²/τ² + N²/τ + (0.664 B)² + K²τ/3 + R²τ²/2 over the octaves. The bands hold the "
@@ -158,23 +158,35 @@ def _notes(result: AllanResult) -> list[Message]:
     return notes
 
 
-def _sentence(channel: AllanChannel) -> Message | None:
-    """How long an average is worth taking."""
-    fit = channel.fit
-    if fit is None:
-        return None
-    best = _best_tau(fit)
-    if best is None or best > channel.tau_s[-1]:
-        return Message(
-            "{channel}: averaging still helps at {tau} s, the longest shown.",
-            channel=channel.name,
-            tau=f"{channel.tau_s[-1]:.3g}",
+def _sentences(result: AllanResult) -> list[Message]:
+    """How long an average is worth taking; channels of which the same is true share a sentence."""
+    channels: dict[tuple[bool, str], list[str]] = {}
+    for one in result.channels:
+        if one.fit is not None:
+            best = _best_tau(one.fit)
+            still = best is None or best > one.tau_s[-1]
+            tau = _round(one.tau_s[-1], 3) if best is None or still else _round(best, 1)
+            channels.setdefault((still, tau), []).append(one.name)
+    return [
+        Message(
+            "{channels}: averaging still helps at {tau} s, the longest shown.",
+            channels=", ".join(names),
+            tau=tau,
         )
-    return Message(
-        "{channel}: averages beyond about {tau} s gain nothing more.",
-        channel=channel.name,
-        tau=f"{best:.2g}",
-    )
+        if still
+        else Message(
+            "{channels}: averages beyond about {tau} s gain nothing more.",
+            channels=", ".join(names),
+            tau=tau,
+        )
+        for (still, tau), names in channels.items()
+    ]
+
+
+def _round(value: float, digits: int) -> str:
+    """So many digits, without an exponent where that is readable."""
+    rounded = float(f"{value:.{digits}g}")
+    return f"{rounded:g}" if 1e-3 <= rounded < 1e5 else f"{rounded:.{digits}g}"
 
 
 def _best_tau(fit: AllanFit) -> float | None:

@@ -175,6 +175,18 @@ def test_the_longest_segment_at_rest_is_taken(tmp_path: Path) -> None:
         longest_at_rest(found[2:])
 
 
+def test_the_report_says_how_long_to_average(tmp_path: Path) -> None:
+    """White noise of 0.2 °/√h and a random walk of 100 °/h/√h meet where N²/τ = K²τ/3."""
+    t_s, gyro, accel = _noise(40_000)
+    walk = np.random.default_rng(9).normal(0.0, 100.0 / 216_000.0 * np.sqrt(0.1), gyro.shape)
+    result = analyse_allan(_record(tmp_path, t_s, gyro + np.cumsum(walk, axis=0), accel))
+    text = report_text(allan_report(result))
+    meet = np.sqrt(3.0) * WHITE / (100.0 / 216_000.0)
+    assert meet == pytest.approx(12.5, abs=0.1)
+    assert "gyro_x, gyro_y, gyro_z: averages beyond about 10 s gain nothing more" in text
+    assert "accel_x, accel_y, accel_z: averaging still helps at 1640 s" in text
+
+
 def test_the_chart_has_bands_and_fits_on_logarithmic_axes(tmp_path: Path) -> None:
     result: AllanResult = analyse_allan(_record(tmp_path, *_noise(4000)))
     report = allan_report(result)

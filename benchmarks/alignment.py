@@ -1,10 +1,10 @@
-"""Self-alignment of many units whose errors are known: error against the limit (2-104), and whether the stated
+"""Self-alignment of many units whose errors are known: against the limit (2-104), and whether the stated
 covariance is true.
 
     python benchmarks/alignment.py [--runs 1000] [--duration 600] [--seed 2015]
 
-For each method and latitude: RMS error of φ_E, φ_N, φ_U over that which (2-104) gives for the drawn biases, and
-the mean normalised error squared (NEES) of the attitude with its 95 % band; for the filters also that of all
+For each method and latitude: RMS error of φ_E, φ_N, φ_U over that which (2-104) gives for the biases, and the
+mean normalised error squared (NEES) of the attitude with its 95 % band; for the filters also that of all
 eight states.
 """
 
@@ -66,7 +66,7 @@ class Fleet:
 
 
 def draw_fleet(latitude_deg: float, unit: UnitModel, runs: int, seconds: int, seed: int) -> Fleet:
-    """``runs`` units, one row a second: the biases from the unit's assumption, any heading, up to 20° of tilt."""
+    """``runs`` units, one row a second: biases from the unit's assumption, any heading, up to 20° of tilt."""
     rng = np.random.default_rng(seed)
     place = Place(float(np.radians(latitude_deg)), float(normal_gravity_mps2(latitude_deg)))
     C = attitude_matrix(
@@ -89,8 +89,8 @@ def draw_fleet(latitude_deg: float, unit: UnitModel, runs: int, seconds: int, se
 
 @dataclass(frozen=True)
 class Statistics:
-    """``ratio`` (3,): RMS φ over the limit; ``nees``: mean over the runs, by number of states; ``band``: where
-    95 % of such means lie."""
+    """``ratio`` (3,): RMS φ over the limit; ``nees``: mean over the runs, by number of states; ``band``:
+    where 95 % of such means lie."""
 
     ratio: Array
     nees: dict[int, float]
@@ -107,7 +107,7 @@ class Statistics:
 def statistics(fleet: Fleet, method: str, orthogonalisation: Orthogonalisation = "rows") -> Statistics:
     """Errors and their honesty of one method over the fleet."""
     place, unit, steps = fleet.place, fleet.unit, fleet.steps
-    errors, covariance = [], None
+    errors: list[Array] = []
     if method.startswith("kalman"):
         rate, force = steps.part(0, FIRST_STEPS).means()
         first = coarse_alignment(rate, force, float(FIRST_STEPS), place, unit)
@@ -132,8 +132,9 @@ def statistics(fleet: Fleet, method: str, orthogonalisation: Orthogonalisation =
 
 def _statistics(fleet: Fleet, errors: Array, covariance: Array) -> Statistics:
     runs = len(errors)
-    nees, band = {}, {}
-    for n in sorted({3, errors.shape[1]}):
+    nees: dict[int, float] = {}
+    band: dict[int, tuple[float, float]] = {}
+    for n in sorted({3, int(errors.shape[1])}):
         scale = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))[:, :n]
         e, P = errors[:, :n] / scale, covariance[:, :n, :n] / (scale[:, :, None] * scale[:, None, :])
         nees[n] = float(np.mean(np.sum(e * np.linalg.solve(P, e[..., None])[..., 0], axis=1)))
@@ -154,7 +155,9 @@ def main() -> int:
     for latitude in (0.0, 39.9042, 70.0, -45.0):
         fleet = draw_fleet(latitude, NAVIGATION, given.runs, given.duration, given.seed)
         limit = np.degrees(attitude_limit_rad(fleet.place, fleet.unit)) * 3600.0
-        print(f"latitude {latitude}°, limit of east, north, up: {limit[0]:.1f}″ {limit[1]:.1f}″ {limit[2]:.1f}″")
+        print(
+            f"latitude {latitude}°, limit of east, north, up: {limit[0]:.1f}″ {limit[1]:.1f}″ {limit[2]:.1f}″"
+        )
         for method in METHODS:
             started = time.perf_counter()
             found = statistics(fleet, method)

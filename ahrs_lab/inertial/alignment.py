@@ -6,8 +6,8 @@ up; biases "in n" are the case's, turned into it, which is the same thing for a 
 
 The attitude error φ is the small rotation that takes the true attitude to the computed one:
 ``C' = (I + [φ×])·C``. Then (2-137) and (2-104) hold as printed, for a specific force that points up:
-φ_E = ∇_N/g, φ_N = −∇_E/g, φ_U = ε_E/(ω_ie cos L) + φ_N tan L. The last term is −∇_E tan L/g; (2-104) prints it
-with the opposite sign, which its own φ_N contradicts. (2-103) and (2-121) count φ the other way.
+φ_E = ∇_N/g, φ_N = −∇_E/g, φ_U = ε_E/(ω_ie cos L) + φ_N tan L. The last term is −∇_E tan L/g; (2-104) prints
+it with the opposite sign, which its own φ_N contradicts. (2-103) and (2-121) count φ the other way.
 """
 
 from __future__ import annotations
@@ -64,11 +64,12 @@ class SensorNoise:
     def mean_variance(self, duration_s: float) -> Array:
         """Shape (3,): variance of a mean over ``duration_s``, against the bias at its beginning."""
         white, walk, jitter = self.variances()
-        return white / duration_s + 2.0 * jitter / duration_s**2 + walk * duration_s / 3.0
+        return np.asarray(white / duration_s + 2.0 * jitter / duration_s**2 + walk * duration_s / 3.0)
 
     def variances(self) -> Array:
         """Shape (3, 3): the squares of white, walk, jitter by case axis."""
-        return np.array([np.broadcast_to(x, 3) for x in (self.white, self.walk, self.jitter)]) ** 2
+        terms = [np.broadcast_to(x, 3) for x in (self.white, self.walk, self.jitter)]
+        return np.array(terms, dtype=np.float64) ** 2
 
 
 @dataclass(frozen=True)
@@ -110,7 +111,7 @@ def limit_matrix(place: Place) -> Array:
 def attitude_limit_rad(place: Place, unit: UnitModel) -> Array:
     """Shape (3,): standard deviation of φ_E, φ_N, φ_U by (2-104) for the unit's biases alone."""
     deviations = np.repeat([unit.gyro_bias_radps, unit.accel_bias_mps2], 3)
-    return np.linalg.norm(limit_matrix(place) * deviations, axis=1)
+    return np.asarray(np.linalg.norm(limit_matrix(place) * deviations, axis=1))
 
 
 def angle_matrix(C_bn: Array) -> Array:
@@ -118,7 +119,11 @@ def angle_matrix(C_bn: Array) -> Array:
     heading, pitch, _ = (np.radians(angle) for angle in attitude_angles_deg(C_bn))
     sine, cosine = np.sin(heading), np.cos(heading)
     matrix = np.zeros((*heading.shape, 3, 3))
-    matrix[..., 0, 0], matrix[..., 0, 1], matrix[..., 0, 2] = sine * np.tan(pitch), cosine * np.tan(pitch), -1.0
+    matrix[..., 0, 0], matrix[..., 0, 1], matrix[..., 0, 2] = (
+        sine * np.tan(pitch),
+        cosine * np.tan(pitch),
+        -1.0,
+    )
     matrix[..., 1, 0], matrix[..., 1, 1] = cosine, -sine
     matrix[..., 2, 0], matrix[..., 2, 1] = sine / np.cos(pitch), cosine / np.cos(pitch)
     return matrix
@@ -127,9 +132,7 @@ def angle_matrix(C_bn: Array) -> Array:
 def small_rotation(C_from: Array, C_to: Array) -> Array:
     """Shape (..., 3): the rotation vector, to second order, that takes one attitude to the other."""
     turn = 0.5 * (C_to @ np.swapaxes(C_from, -1, -2))
-    return np.stack(
-        [turn[..., j, i] - turn[..., i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=-1
-    )
+    return np.stack([turn[..., j, i] - turn[..., i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=-1)
 
 
 @dataclass(frozen=True)

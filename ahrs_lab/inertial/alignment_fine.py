@@ -1,8 +1,8 @@
 """Fine alignment: least squares over time (2-121)–(2-135).
 
-In the frame that a first attitude computes, the specific force's horizontal parts show the tilt (2-127) and the
-integrated rate's eastern part grows with the heading error (2-131). Lines are fitted to both. Reported is the
-attitude in the middle of the record, the best known point of a line: a unit at rest has one attitude.
+In the frame that a first attitude computes, the specific force's horizontal parts show the tilt (2-127) and
+the integrated rate's eastern part grows with the heading error (2-131). Lines are fitted to both. Reported is
+the attitude in the middle of the record, the best known point of a line: a unit at rest has one attitude.
 
 Signs are those of :mod:`ahrs_lab.inertial.alignment`: δf_E = g φ_N, δf_N = −g φ_E,
 ω_E = φ_N ω_ie sin L − φ_U ω_ie cos L.

@@ -1,10 +1,10 @@
 """Alignment by Kalman filter: closed loop, 10 states (2-136), and open loop, 8 states (2-137)–(2-139).
 
-State: φ (3, rad), ε in n (3, rad/s), ∇_E, ∇_N (m/s²), and in the closed loop δv_E, δv_N (m/s). The gyros carry a
-computed attitude along. Open: it is left alone, its error is the state, and the horizontal specific force in
-its frame is the measurement. Closed: what has been estimated is taken out of the attitude, the velocity and
-the sensors after each step, and that the velocity should be zero is the measurement; a base that vibrates
-disturbs this less.
+State: φ (3, rad), ε in n (3, rad/s), ∇_E, ∇_N (m/s²), and in the closed loop δv_E, δv_N (m/s). The gyros
+carry a computed attitude along. Open: it is left alone, its error is the state, and the horizontal specific
+force in its frame is the measurement. Closed: what has been estimated is taken out of the attitude, the
+velocity and the sensors after each step, and that the velocity should be zero is the measurement. On a base
+that vibrates this knows more: the open loop takes what vibration leaves in each step for white noise.
 
 The filter starts from a coarse alignment on the first part of the record and uses only what comes after it.
 That attitude's error is made of the very biases that are states (2-104): the initial covariance says so. What
@@ -34,11 +34,14 @@ _VELOCITY_FLOOR = 0.3
 """Deviation of the zero-velocity measurement over the accelerometers' own noise in one step, where nothing
 vibrates: small enough to cost nothing, large enough to keep the covariance well conditioned."""
 
+_SMALLEST_VARIANCE = 1e-18
+"""m²/s²; for sensors without any noise."""
+
 
 @dataclass(frozen=True)
 class KalmanAlignment:
-    """``C_bn`` (..., 3, 3) at the end; ``bias`` (..., 5): ε_E, ε_N, ε_U, ∇_E, ∇_N; ``covariance`` of φ and these
-    (..., 8, 8).
+    """``C_bn`` (..., 3, 3) at the end; ``bias`` (..., 5): ε_E, ε_N, ε_U, ∇_E, ∇_N; ``covariance`` of φ and
+    these (..., 8, 8).
 
     ``t_s`` (p,): the start and each step's end, from the first used row on; ``attitudes`` (..., p, 3, 3),
     ``attitude_covariances`` (..., p, 3, 3), ``biases`` and ``bias_deviations`` (..., p, 5).
@@ -57,8 +60,8 @@ class KalmanAlignment:
 def kalman_alignment(
     steps: Steps, first: Array, first_s: float, place: Place, unit: UnitModel, *, closed: bool
 ) -> KalmanAlignment:
-    """``first`` (..., 3, 3) is the coarse attitude (rows orthogonalised) of the ``first_s`` seconds right before
-    ``steps``."""
+    """``first`` (..., 3, 3) is the coarse attitude (rows orthogonalised) of the ``first_s`` seconds right
+    before ``steps``."""
     run = _Filter(first, first_s, place, unit, closed)
     history = [run.now()]
     for index, duration in enumerate(steps.duration_s):
@@ -68,7 +71,7 @@ def kalman_alignment(
     return KalmanAlignment(
         C_bn=attitudes[-1],
         bias=biases[-1],
-        covariance=run.P[..., :OPEN_STATES, :OPEN_STATES],
+        covariance=run.covariance,
         t_s=first_s + np.concatenate(([0.0], steps.end_s)),
         attitudes=np.stack(attitudes, axis=-3),
         attitude_covariances=np.stack(covariances, axis=-3),
@@ -78,10 +81,12 @@ def kalman_alignment(
 
 
 class _Filter:
-    """The running filter: ``x`` (..., n), ``P`` (..., n, n), the computed attitude ``C`` and velocity ``v``."""
+    """The running filter: ``x`` (..., n), ``P`` (..., n, n), computed attitude ``C`` and velocity ``v``."""
 
     def __init__(self, first: Array, first_s: float, place: Place, unit: UnitModel, closed: bool) -> None:
         self._place, self._unit, self._closed = place, unit, closed
+        self._shake = turned(first, unit.gyro_noise.variances()[2])
+        """Of the instantaneous attitude about its mean."""
         self._size = CLOSED_STATES if closed else OPEN_STATES
         runs = first.shape[:-2]
         self.C = first
@@ -99,7 +104,14 @@ class _Filter:
         """Attitude, its covariance, biases, their deviations, all that was estimated put in."""
         attitude = rotation_from_vector(-self.x[..., PHI]) @ self.C
         deviations = np.sqrt(np.diagonal(self.P, axis1=-2, axis2=-1)[..., 3:8])
-        return attitude, self.P[..., PHI, PHI], self._bias + self.x[..., 3:8], deviations
+        return attitude, self.P[..., PHI, PHI] + self._shake, self._bias + self.x[..., 3:8], deviations
+
+    @property
+    def covariance(self) -> Array:
+        """Shape (..., 8, 8): of the attitude at this instant and the biases."""
+        P = self.P[..., :OPEN_STATES, :OPEN_STATES].copy()
+        P[..., PHI, PHI] += self._shake
+        return P
 
     def step(self, dt: float, turn: Array, velocity: Array) -> None:
         """One step of the strapdown, the prediction, the measurement."""
@@ -107,6 +119,8 @@ class _Filter:
         transition, noise = self._transition(dt)
         self.x = _times(transition, self.x)
         self.P = transition @ self.P @ transition.T + noise
+        if self._closed:
+            self.P[..., VELOCITY, VELOCITY] += self._shaken_force() * dt**2
         if self._closed:
             H = np.eye(self._size)[VELOCITY]
             self._update(self.v[..., :2], H, self._velocity_variance(dt))
@@ -129,7 +143,7 @@ class _Filter:
             self.v = self.v + push - dt * np.cross(2.0 * earth, self.v)
             self.v[..., 2] = 0.0
         self.C = rotation_from_vector(-rate * dt) @ self.C @ turn
-        return push
+        return np.asarray(push, dtype=np.float64)
 
     def _transition(self, dt: float) -> tuple[Array, Array]:
         """Φ and the process noise of ``dt`` (Van Loan), made once for steps of the same length."""
@@ -172,7 +186,14 @@ class _Filter:
         P = np.zeros((*C_bn.shape[:-2], self._size, self._size))
         P[..., :8, :8] = states @ bias @ states.T
         noise = unit.mean_covariance(C_bn, first_s) - bias
-        P[..., PHI, PHI] += limit @ noise @ limit.T
+        # a base that vibrates has some angle and velocity at the start, which the means before it end with
+        ends = -limit[:, :3] @ self._shake / first_s
+        P[..., PHI, PHI] += limit @ noise @ limit.T + self._shake + ends + np.swapaxes(ends, -1, -2)
+        if self._closed:
+            velocity = self._velocity_variance(0.0)
+            P[..., VELOCITY, VELOCITY] = velocity
+            P[..., PHI, VELOCITY] = -limit[:, 3:5] @ velocity / first_s
+            P[..., VELOCITY, PHI] = np.swapaxes(P[..., PHI, VELOCITY], -1, -2)
         return P
 
     def _noise_density(self, C_bn: Array) -> Array:
@@ -187,23 +208,22 @@ class _Filter:
 
     def _force_variance(self, dt: float) -> Array:
         white, _, jitter = self._unit.accel_noise.variances()
-        tilt = self._place.gravity_mps2**2 * self._angle_variance()
-        return turned(self.C, white / dt + 2.0 * jitter / dt**2)[..., :2, :2] + tilt * np.eye(2)
+        return turned(self.C, white / dt + 2.0 * jitter / dt**2)[..., :2, :2] + self._shaken_force()
 
     def _velocity_variance(self, dt: float) -> Array:
         white, _, jitter = self._unit.accel_noise.variances()
-        tilt = (self._place.gravity_mps2 * dt) ** 2 * self._angle_variance()
-        floor = 1e-18 + tilt
-        return turned(self.C, jitter + _VELOCITY_FLOOR**2 * white * dt)[..., :2, :2] + floor * np.eye(2)
+        variance = turned(self.C, jitter + _VELOCITY_FLOOR**2 * white * dt)[..., :2, :2]
+        return np.asarray(variance + _SMALLEST_VARIANCE * np.eye(2), dtype=np.float64)
 
-    def _angle_variance(self) -> float:
-        """Of the computed attitude, by the white noise of the gyros' angle."""
-        return float(self._unit.gyro_noise.variances()[2].mean())
+    def _shaken_force(self) -> Array:
+        """Variance of the horizontal specific force by the shake of the attitude it is seen in."""
+        seen = measured_force(self._place.gravity_mps2)[:, PHI]
+        return np.asarray(seen @ self._shake @ seen.T, dtype=np.float64)
 
 
 def dynamics(place: Place) -> Array:
-    """Shape (10, 10): the error equations at rest, (2-137) with the velocity's part of 2.4.5; the upper left 8×8
-    are those of the open loop."""
+    """Shape (10, 10): the error equations at rest, (2-137) with the velocity's part of 2.4.5; the upper left
+    8×8 are those of the open loop."""
     g, up = place.gravity_mps2, place.up_radps
     F = np.zeros((CLOSED_STATES, CLOSED_STATES))
     F[PHI, PHI] = -skew(place.earth_rate)

@@ -138,8 +138,8 @@ def _statistics(fleet: Fleet, errors: Array, covariance: Array) -> Statistics:
         scale = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))[:, :n]
         e, P = errors[:, :n] / scale, covariance[:, :n, :n] / (scale[:, :, None] * scale[:, None, :])
         nees[n] = float(np.mean(np.sum(e * np.linalg.solve(P, e[..., None])[..., 0], axis=1)))
-        low, high = chi2.ppf([0.025, 0.975], n * runs) / runs
-        band[n] = (float(low), float(high))
+        low, high = (float(chi2.ppf(q, n * runs)) / runs for q in (0.025, 0.975))
+        band[n] = (low, high)
     rms = np.sqrt(np.mean(errors[:, :3] ** 2, axis=0))
     return Statistics(rms / attitude_limit_rad(fleet.place, fleet.unit), nees, band, errors, covariance)
 

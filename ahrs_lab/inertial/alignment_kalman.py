@@ -35,7 +35,7 @@ _VELOCITY_FLOOR = 0.3
 vibrates: small enough to cost nothing, large enough to keep the covariance well conditioned."""
 
 _SMALLEST_VARIANCE = 1e-18
-"""m²/s²; for sensors without any noise."""
+"""m²/s² and m²/s⁴; for sensors without any noise."""
 
 
 @dataclass(frozen=True)
@@ -208,7 +208,8 @@ class _Filter:
 
     def _force_variance(self, dt: float) -> Array:
         white, _, jitter = self._unit.accel_noise.variances()
-        return turned(self.C, white / dt + 2.0 * jitter / dt**2)[..., :2, :2] + self._shaken_force()
+        variance = turned(self.C, white / dt + 2.0 * jitter / dt**2)[..., :2, :2]
+        return np.asarray(variance + self._shaken_force() + _SMALLEST_VARIANCE * np.eye(2), dtype=np.float64)
 
     def _velocity_variance(self, dt: float) -> Array:
         white, _, jitter = self._unit.accel_noise.variances()

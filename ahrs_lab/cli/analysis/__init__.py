@@ -24,6 +24,7 @@ class Command(Protocol):
 def commands() -> Sequence[Command]:
     """In the order of the help text."""
     from ahrs_lab.cli.analysis import (
+        align,
         allan,
         compensate,
         error_propagation,
@@ -37,4 +38,5 @@ def commands() -> Sequence[Command]:
         compensate,
         navigate,
         error_propagation,
+        align,
     )

@@ -9,6 +9,7 @@ from ahrs_lab.laboratory.analyses.kinds import AnalysisKind
 def analyses() -> tuple[AnalysisKind, ...]:
     """All of them; imported when asked for."""
     from ahrs_lab.laboratory.analyses import (
+        alignment,
         allan,
         compensation,
         error_propagation,
@@ -22,4 +23,5 @@ def analyses() -> tuple[AnalysisKind, ...]:
         compensation.KIND,
         navigation.KIND,
         error_propagation.KIND,
+        alignment.KIND,
     )

@@ -30,6 +30,7 @@ from ahrs_lab.inertial.alignment import (  # noqa: E402
     UnitModel,
     attitude_limit_rad,
     coarse_alignment,
+    limit_matrix,
     small_rotation,
 )
 from ahrs_lab.inertial.alignment_fine import fine_alignment  # noqa: E402
@@ -64,6 +65,11 @@ class Fleet:
     accel_bias: Array
     steps: Steps
 
+    def biases(self) -> tuple[Array, Array]:
+        """Of gyros and accelerometers in n, shape (runs, 3) each."""
+        gyro, accel = (np.einsum("rij,rj->ri", self.C_bn, bias) for bias in (self.gyro_bias, self.accel_bias))
+        return gyro, accel
+
 
 def draw_fleet(latitude_deg: float, unit: UnitModel, runs: int, seconds: int, seed: int) -> Fleet:
     """``runs`` units, one row a second: biases from the unit's assumption, any heading, up to 20° of tilt."""
@@ -89,8 +95,8 @@ def draw_fleet(latitude_deg: float, unit: UnitModel, runs: int, seconds: int, se
 
 @dataclass(frozen=True)
 class Statistics:
-    """``ratio`` (3,): RMS φ over the limit; ``nees``: mean over the runs, by number of states; ``band``:
-    where 95 % of such means lie."""
+    """``ratio`` (3,): RMS φ over that which (2-104) gives for the biases as drawn; ``nees``: mean over the
+    runs, by number of states; ``band``: where 95 % of such means lie."""
 
     ratio: Array
     nees: dict[int, float]
@@ -116,9 +122,7 @@ def statistics(fleet: Fleet, method: str, orthogonalisation: Orthogonalisation =
             later, first.C_bn, float(FIRST_STEPS), place, unit, closed=method == "kalman-closed"
         )
         C_bn, covariance = run.C_bn, run.covariance
-        now = np.einsum("rij,rj->ri", fleet.C_bn, fleet.gyro_bias)
-        pull = np.einsum("rij,rj->ri", fleet.C_bn, fleet.accel_bias)
-        errors = [np.concatenate([now, pull[:, :2]], axis=1) - run.bias]
+        errors = [np.concatenate(fleet.biases(), axis=1)[:, :5] - run.bias]
     else:
         rate, force = steps.means()
         coarse = coarse_alignment(rate, force, float(len(steps)), place, unit, orthogonalisation)
@@ -140,8 +144,9 @@ def _statistics(fleet: Fleet, errors: Array, covariance: Array) -> Statistics:
         nees[n] = float(np.mean(np.sum(e * np.linalg.solve(P, e[..., None])[..., 0], axis=1)))
         low, high = (float(chi2.ppf(q, n * runs)) / runs for q in (0.025, 0.975))
         band[n] = (low, high)
-    rms = np.sqrt(np.mean(errors[:, :3] ** 2, axis=0))
-    return Statistics(rms / attitude_limit_rad(fleet.place, fleet.unit), nees, band, errors, covariance)
+    limit = np.concatenate(fleet.biases(), axis=1) @ limit_matrix(fleet.place).T
+    ratio = np.sqrt(np.mean(errors[:, :3] ** 2, axis=0) / np.mean(limit**2, axis=0))
+    return Statistics(ratio, nees, band, errors, covariance)
 
 
 def main() -> int:

@@ -207,8 +207,8 @@ def _notes(alignment: Alignment) -> tuple[Message, ...]:
         notes.append(
             Message(
                 "Biases whose uncertainty is that assumed were not observed. The north gyro shows its bias "
-                "in the drift of level, the up gyro in its mean rate, the up accelerometer in the excess over "
-                "normal gravity, which itself is known to 5×10⁻⁴ m/s²."
+                "in the drift of level, the up gyro in its mean rate, the up accelerometer in the excess "
+                "over normal gravity, which itself is known to 5×10⁻⁴ m/s²."
             )
         )
     return tuple(notes)

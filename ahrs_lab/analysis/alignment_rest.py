@@ -18,6 +18,7 @@ from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.alignment import Place
 from ahrs_lab.inertial.earth import EARTH_RATE_RADPS
 from ahrs_lab.messages import Message
+from ahrs_lab.recording.samples import GAP_STEPS, Samples, interval_s
 
 Array = NDArray[np.float64]
 
@@ -30,7 +31,7 @@ _FEWEST_WINDOWS = 4
 _TURNING_RADPS = 10.0 * EARTH_RATE_RADPS
 _STRANGE_FORCE_MPS2 = 0.2
 """20 mg off gravity: no accelerometer that is worth aligning with."""
-_SWAY = (float(np.radians(0.05)), 0.05)
+_SWAY = (float(np.radians(0.05)), 0.1)
 """rad/s, m/s²: scatter of means over a second."""
 _MOVED = (float(np.radians(0.003)), 0.005)
 """rad/s, m/s² (0.03° of tilt): what the mean of a window may change by beside its noise."""
@@ -54,7 +55,9 @@ class Rest:
 
 def rest_of(record: InertialRecord, place: Place, shortest_s: float) -> Rest:
     """Raises InputError where the stretch is shorter than ``shortest_s`` or the unit moves."""
+    record, left_out = _with_force(record)
     start, stop, warnings = _longest(record)
+    warnings = (*left_out, *warnings)
     part = replace(
         record,
         t_s=record.t_s[start:stop],
@@ -84,6 +87,27 @@ def rest_of(record: InertialRecord, place: Place, shortest_s: float) -> Rest:
         )
         return Rest(part, (*warnings, vibration))
     return rest
+
+
+def _with_force(record: InertialRecord) -> tuple[InertialRecord, tuple[Message, ...]]:
+    """The rows that have a specific force; the others become gaps."""
+    kept = np.flatnonzero(np.all(np.isfinite(record.needed_force()), axis=1))
+    missing = len(record) - len(kept)
+    if not missing:
+        return record, ()
+    samples = Samples({name: column[kept] for name, column in record.samples.columns.items()})
+    rate_hz = record.header.device.sample_rate_hz
+    interval = interval_s(samples, rate_hz)
+    warning = Message("{count} rows have no number for the specific force and were left out.", count=missing)
+    return replace(
+        record,
+        t_s=record.t_s[kept],
+        interval_s=interval,
+        rate=record.rate[kept],
+        force=record.needed_force()[kept],
+        gaps=np.flatnonzero(interval > GAP_STEPS / rate_hz),
+        samples=samples,
+    ), (warning,)
 
 
 def _longest(record: InertialRecord) -> tuple[int, int, tuple[Message, ...]]:

@@ -23,6 +23,8 @@ GRAVITY_ANOMALY_MPS2 = 5e-4
 """Standard deviation of gravity on the ground about the normal one (50 mGal)."""
 _FLICKER_AS_WALK = 2.65
 """A random walk of K² = 2.65 B²/T has flicker's Allan variance at half the record, T/2."""
+_CLEARLY = 2.0
+"""Standard deviations of the fit."""
 _CONTRADICTED = (13.8, 10.8)
 """χ² that is exceeded once in a thousand times: of the two gyro biases, of the accelerometer's."""
 _STEEPEST_DEG = 89.0
@@ -31,18 +33,20 @@ _NEXT_TO_THE_POLE_DEG = 89.999
 
 
 def noise_of(record: InertialRecord, values: Array) -> SensorNoise:
-    """Of each axis, from the Allan variances of the recording."""
+    """Of each axis, from the Allan variances of the recording. Flicker that the recording does not clearly
+    show is left to the assumed bias, which it is a part of."""
     interval = 1.0 / record.header.device.sample_rate_hz
-    fits = []
+    duration_s = float(record.interval_s.sum())
+    terms = []
     for channel in values.T:
         batches, batch_s = batch_means(channel, interval)
-        fits.append(fit_noise([batches - batches.mean()], batch_s))
-    duration_s = float(record.interval_s.sum())
-    return SensorNoise(
-        white=np.array([fit.white for fit in fits]),
-        walk=np.sqrt([fit.walk**2 + _FLICKER_AS_WALK * fit.flicker**2 / duration_s for fit in fits]),
-        jitter=np.array([fit.quantisation for fit in fits]),
-    )
+        fit = fit_noise([batches - batches.mean()], batch_s)
+        flicker = fit.flicker**2
+        if fit.covariance is None or flicker < _CLEARLY * np.sqrt(fit.covariance[2][2]):
+            flicker = 0.0
+        walk = np.sqrt(fit.walk**2 + _FLICKER_AS_WALK * flicker / duration_s)
+        terms.append((fit.white, walk, fit.quantisation))
+    return SensorNoise(*np.transpose(terms))
 
 
 def held_against(steps: Steps, place: Place, unit: UnitModel) -> tuple[UnitModel, tuple[Message, ...]]:
@@ -119,7 +123,7 @@ def refuse_unsure(
             "°/h and this noise, {seconds} s at rest do not find the horizontal Earth rate of {rate} °/h. "
             "Use better or calibrated gyros, a longer recording, or make sure that the unit was at rest.",
             file=record.segment.file,
-            sigma=f"{sigma:.1f}",
+            sigma=f"{sigma:.2g}",
             limit=f"{heading_limit_deg:g}",
             bias=f"{unit.gyro_bias_radps / RADPS_PER_DEG_PER_H:.3g}",
             seconds=f"{record.interval_s.sum():.0f}",

@@ -103,7 +103,9 @@ class _Filter:
     def now(self) -> tuple[Array, Array, Array, Array]:
         """Attitude, its covariance, biases, their deviations, all that was estimated put in."""
         attitude = rotation_from_vector(-self.x[..., PHI]) @ self.C
-        deviations = np.sqrt(np.diagonal(self.P, axis1=-2, axis2=-1)[..., 3:8])
+        # without any noise rounding may leave a variance just below zero
+        variances = np.maximum(np.diagonal(self.P, axis1=-2, axis2=-1)[..., 3:8], 0.0)
+        deviations = np.sqrt(variances)
         return attitude, self.P[..., PHI, PHI] + self._shake, self._bias + self.x[..., 3:8], deviations
 
     @property
@@ -229,7 +231,7 @@ def dynamics(place: Place) -> Array:
     F = np.zeros((CLOSED_STATES, CLOSED_STATES))
     F[PHI, PHI] = -skew(place.earth_rate)
     F[PHI, EPSILON] = np.eye(3)
-    F[PHI, VELOCITY] = transport(place)[:, :2]
+    F[PHI, VELOCITY] = -transport(place)[:, :2]
     F[8, 1], F[9, 0] = g, -g
     F[VELOCITY, NABLA] = np.eye(2)
     F[8, 9], F[9, 8] = 2.0 * up, -2.0 * up

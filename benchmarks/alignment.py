@@ -149,6 +149,18 @@ def _statistics(fleet: Fleet, errors: Array, covariance: Array) -> Statistics:
     return Statistics(ratio, nees, band, errors, covariance)
 
 
+def _line(fleet: Fleet, method: str, orthogonalisation: Orthogonalisation) -> str:
+    started = time.perf_counter()
+    found = statistics(fleet, method, orthogonalisation)
+    seconds = time.perf_counter() - started
+    shown = " ".join(f"{ratio:6.3f}" for ratio in found.ratio)
+    nees = ", ".join(
+        f"NEES {found.nees[n]:.3f} of {n} ({low:.3f} … {high:.3f})" for n, (low, high) in found.band.items()
+    )
+    name = f"{method} {orthogonalisation}" if method == "coarse" else method
+    return f"  {name:14}  {shown}  {nees}  {seconds:.1f} s"
+
+
 def main() -> int:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -164,15 +176,8 @@ def main() -> int:
             f"latitude {latitude}°, limit of east, north, up: {limit[0]:.1f}″ {limit[1]:.1f}″ {limit[2]:.1f}″"
         )
         for method in METHODS:
-            started = time.perf_counter()
-            found = statistics(fleet, method)
-            seconds = time.perf_counter() - started
-            shown = " ".join(f"{ratio:.3f}" for ratio in found.ratio)
-            nees = ", ".join(
-                f"NEES {found.nees[n]:.3f} of {n} ({low:.3f} … {high:.3f})"
-                for n, (low, high) in found.band.items()
-            )
-            print(f"  {method:13}  {shown}  {nees}  {seconds:.1f} s")
+            for orthogonalisation in ("rows", "columns", "svd") if method == "coarse" else ("rows",):
+                print(_line(fleet, method, orthogonalisation), flush=True)
     return 0
 
 

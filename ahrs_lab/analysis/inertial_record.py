@@ -6,6 +6,7 @@ counts (``LSB``) is left in counts. :func:`unit_doubts` says when the header's u
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from math import radians
 
@@ -16,6 +17,7 @@ from ahrs_lab.analysis.rate_unit import agrees, gravity_ratio, shows_earth, tabl
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.earth import STANDARD_GRAVITY_MPS2, normal_gravity_mps2
 from ahrs_lab.messages import Message
+from ahrs_lab.recording.finding import Kind
 from ahrs_lab.recording.read import RecordedSegment, Recording
 from ahrs_lab.recording.samples import ACCEL, GAP_STEPS, GYRO, Samples, interval_s
 from ahrs_lab.recording.segment import RecordingHeader, Segment
@@ -83,10 +85,12 @@ class InertialRecord:
         return self
 
 
-def records(recording: Recording, file: str | None = None) -> tuple[InertialRecord, ...]:
+def records(
+    recording: Recording, file: str | None = None, *, tolerated: Collection[Kind] = ()
+) -> tuple[InertialRecord, ...]:
     """The usable segments of ``recording`` in their order, or the one with this ``file`` (or name).
 
-    Raises InputError where there is none.
+    ``tolerated`` kinds of findings do not make a segment unusable. Raises InputError where there is none.
     """
     chosen = [s for s in recording.segments if file is None or file in (s.segment.file, s.segment.name)]
     if file is not None and not chosen:
@@ -95,7 +99,7 @@ def records(recording: Recording, file: str | None = None) -> tuple[InertialReco
             file=file,
             known=", ".join(s.segment.file for s in recording.segments),
         )
-    found = tuple(inertial_record(recording.header, one) for one in chosen if one.usable)
+    found = tuple(inertial_record(recording.header, one) for one in chosen if _usable(one, tolerated))
     if not found:
         what = next((f.placed for s in chosen for f in s.findings if f.severity == "unusable"), None)
         raise InputError(
@@ -103,6 +107,11 @@ def records(recording: Recording, file: str | None = None) -> tuple[InertialReco
             what=what if what is not None else Message("each was recorded again or interrupted."),
         )
     return found
+
+
+def _usable(recorded: RecordedSegment, tolerated: Collection[Kind]) -> bool:
+    bad = (f for f in recorded.findings if f.severity == "unusable" and f.kind not in tolerated)
+    return recorded.counts and next(bad, None) is None
 
 
 def inertial_record(header: RecordingHeader, recorded: RecordedSegment) -> InertialRecord:

@@ -84,7 +84,8 @@ def _limit(alignment: Alignment) -> Table:
         ),
         *_noise_rows(alignment),
     )
-    return Table(Message("What the uncertainty is made of (standard deviations)"), ("", "", ""), rows)
+    head = (Message("quantity"), Message("value"), Message("unit"))
+    return Table(Message("What the uncertainty is made of (standard deviations)"), head, rows)
 
 
 def _noise_rows(alignment: Alignment) -> tuple[tuple[Cell, ...], ...]:

@@ -6,7 +6,6 @@ counts (``LSB``) is left in counts. :func:`unit_doubts` says when the header's u
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from math import radians
 
@@ -86,7 +85,7 @@ class InertialRecord:
 
 
 def records(
-    recording: Recording, file: str | None = None, *, tolerated: Collection[Kind] = ()
+    recording: Recording, file: str | None = None, *, tolerated: tuple[Kind, ...] = ()
 ) -> tuple[InertialRecord, ...]:
     """The usable segments of ``recording`` in their order, or the one with this ``file`` (or name).
 
@@ -109,7 +108,7 @@ def records(
     return found
 
 
-def _usable(recorded: RecordedSegment, tolerated: Collection[Kind]) -> bool:
+def _usable(recorded: RecordedSegment, tolerated: tuple[Kind, ...]) -> bool:
     bad = (f for f in recorded.findings if f.severity == "unusable" and f.kind not in tolerated)
     return recorded.counts and next(bad, None) is None
 

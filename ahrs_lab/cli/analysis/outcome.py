@@ -1,4 +1,7 @@
-"""Starting an analysis and saying what came out: the same for each command."""
+"""Starting an analysis and saying what came out: the same for each command.
+
+Each command's options need this module, so it imports what is heavy only where an analysis is run.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +9,10 @@ import argparse
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ahrs_lab.analysis.report import report_text
-from ahrs_lab.laboratory.analyses.files import write_outcome
-from ahrs_lab.laboratory.analyses.kinds import AnalysisKind, Outcome, Value
+if TYPE_CHECKING:
+    from ahrs_lab.laboratory.analyses.kinds import AnalysisKind, Outcome, Value
 
 
 def out_option(parser: argparse.ArgumentParser) -> None:
@@ -21,6 +24,8 @@ def run_kind(
     kind: AnalysisKind, bundles: Sequence[Path], settings: Mapping[str, Value], arguments: argparse.Namespace
 ) -> int:
     """Run ``kind`` with its defaults and these ``settings``; prints JSON or text, writes ``--out``."""
+    from ahrs_lab.laboratory.analyses.files import write_outcome
+
     outcome = kind.run(bundles, {**kind.defaults(), **settings})
     show(
         outcome,
@@ -32,6 +37,8 @@ def run_kind(
 
 def show(outcome: Outcome, files: Iterable[Path], arguments: argparse.Namespace) -> None:
     """Print what came out, as text with the ``files`` that were written, or as one JSON object."""
+    from ahrs_lab.analysis.report import report_text
+
     text = report_text(outcome.report)
     written = ", ".join(str(path) for path in files)
     if written:

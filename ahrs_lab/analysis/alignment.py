@@ -20,6 +20,7 @@ from ahrs_lab.analysis.alignment_report import METHOD_NAMES, ORTHOGONALISATION_N
 from ahrs_lab.analysis.alignment_rest import Rest, rest_of
 from ahrs_lab.analysis.alignment_unit import (
     GRAVITY_ANOMALY_MPS2,
+    QUIETEST,
     RADPS_PER_DEG_PER_H,
     held_against,
     noise_of,
@@ -177,7 +178,9 @@ def align(record: InertialRecord, settings: AlignmentSettings) -> Alignment:
     rows = max(1, round(part.header.device.sample_rate_hz))
     steps = steps_of(part.rate, part.needed_force(), part.interval_s, rows)
     unit = replace(
-        unit, gyro_noise=noise_of(part, part.rate), accel_noise=noise_of(part, part.needed_force())
+        unit,
+        gyro_noise=noise_of(part, part.rate, QUIETEST[0]),
+        accel_noise=noise_of(part, part.needed_force(), QUIETEST[1]),
     )
     unit, widened = held_against(steps, place, unit)
     coarse = coarse_alignment(*steps.means(), rest.duration_s, place, unit)
@@ -242,7 +245,9 @@ def _attitude(C_bn: Array, covariance: Array, axes: Axes) -> Attitude:
     seen = C_bn[..., ["xyz".index(axis) for axis in axes]]
     matrix = angle_matrix(seen)
     variance = np.diagonal(matrix @ covariance @ np.swapaxes(matrix, -1, -2), axis1=-2, axis2=-1)
-    return Attitude(np.stack(attitude_angles_deg(seen), axis=-1), np.degrees(np.sqrt(variance)))
+    return Attitude(
+        np.stack(attitude_angles_deg(seen), axis=-1), np.degrees(np.sqrt(np.maximum(variance, 0.0)))
+    )
 
 
 def _filtered(steps: Steps, place: Place, unit: UnitModel, method: Method) -> KalmanAlignment:

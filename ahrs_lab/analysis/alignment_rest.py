@@ -8,6 +8,7 @@ not.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -78,6 +79,7 @@ def rest_of(record: InertialRecord, place: Place, shortest_s: float) -> Rest:
         )
     _refuse_turning(part, place)
     _refuse_motion(part)
+    rest = Rest(part, (*warnings, *_stuck(part)))
     spread = float(np.linalg.norm(part.needed_force().std(axis=0)))
     if spread > _VIBRATION_MPS2:
         vibration = Message(
@@ -85,7 +87,7 @@ def rest_of(record: InertialRecord, place: Place, shortest_s: float) -> Rest:
             "uncertainty; what vibration shifts in the sensors themselves (rectification) is not.",
             spread=f"{spread:.2g}",
         )
-        return Rest(part, (*warnings, vibration))
+        return Rest(part, (*rest.warnings, vibration))
     return rest
 
 
@@ -201,6 +203,18 @@ def _refuse_motion(record: InertialRecord) -> None:
                 axis="xyz"[int(axis)],
                 change=f"{off[row, axis] * scale:.2g}",
                 unit=unit,
+            )
+
+
+def _stuck(record: InertialRecord) -> Iterator[Message]:
+    """A channel without noise beside others that have some."""
+    for name, values in (("gyro", record.rate), ("accel", record.needed_force())):
+        still = np.ptp(values, axis=0) == 0.0
+        if still.any() and not still.all():
+            yield Message(
+                "{channels} shows the same value in every row: it is stuck, or its steps are coarse; the "
+                "stated uncertainty knows nothing of it.",
+                channels=", ".join(f"{name}_{axis}" for axis, one in zip("xyz", still, strict=True) if one),
             )
 
 

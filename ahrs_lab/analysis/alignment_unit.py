@@ -23,6 +23,8 @@ GRAVITY_ANOMALY_MPS2 = 5e-4
 """Standard deviation of gravity on the ground about the normal one (50 mGal)."""
 _FLICKER_AS_WALK = 2.65
 """A random walk of K² = 2.65 B²/T has flicker's Allan variance at half the record, T/2."""
+QUIETEST = (1e-10, 1e-8)
+"""Of gyros, rad/√s, and accelerometers, (m/s²)·√s: below those of any sensor."""
 _CLEARLY = 2.0
 """Standard deviations of the fit."""
 _CONTRADICTED = (13.8, 10.8)
@@ -32,9 +34,10 @@ _NEXT_TO_THE_POLE_DEG = 89.999
 """Beyond it no bias is small enough: where north is depends on what is called up."""
 
 
-def noise_of(record: InertialRecord, values: Array) -> SensorNoise:
+def noise_of(record: InertialRecord, values: Array, quietest: float) -> SensorNoise:
     """Of each axis, from the Allan variances of the recording. Flicker that the recording does not clearly
-    show is left to the assumed bias, which it is a part of."""
+    show is left to the assumed bias, which it is a part of. White noise is at least ``quietest``: simulated
+    readings may have none."""
     interval = 1.0 / record.header.device.sample_rate_hz
     duration_s = float(record.interval_s.sum())
     terms = []
@@ -45,7 +48,7 @@ def noise_of(record: InertialRecord, values: Array) -> SensorNoise:
         if fit.covariance is None or flicker < _CLEARLY * np.sqrt(fit.covariance[2][2]):
             flicker = 0.0
         walk = np.sqrt(fit.walk**2 + _FLICKER_AS_WALK * flicker / duration_s)
-        terms.append((fit.white, walk, fit.quantisation))
+        terms.append((max(fit.white, quietest), walk, fit.quantisation))
     return SensorNoise(*np.transpose(terms))
 
 

@@ -285,3 +285,22 @@ def test_an_unusual_attitude_keeps_its_uncertainty() -> None:
     u = found.attitude.uncertainty_deg
     assert np.all(np.abs(errors(found, steep)) < 3.0 * u)
     assert u[2] > 3.0 * u[1]
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("assumed", [(0.03, 1e-3), (0.0, 0.0)])
+def test_readings_without_noise_give_the_attitude_to_the_last_figures(
+    method: Method, assumed: tuple[float, float]
+) -> None:
+    rows = samples(noise=0.0, duration_s=90.0)
+    found = align(record_of(rows), AlignmentSettings(method, *assumed))
+    assert np.all(np.abs(errors(found)) < 1e-5)
+    assert np.all(np.isfinite(found.attitude.uncertainty_deg))
+    assert not found.warnings
+    report_text(found.report())
+
+
+def test_a_stuck_channel_is_named() -> None:
+    rows = samples()
+    found = align(record_of(rows.with_columns({"accel_y": np.zeros(len(rows))})), AlignmentSettings("fine"))
+    assert warned(found, "accel_y shows the same value in every row")

@@ -36,17 +36,18 @@ def samples(
     seed: int = 1,
     disturbance: Disturbance | None = None,
     rate_hz: float = RATE_HZ,
+    noise: float = 1.0,
 ) -> Samples:
-    """°/s and m/s². ``disturbance(t_s, rate, force)`` changes both in place."""
+    """°/s and m/s². ``disturbance(t_s, rate, force)`` changes both in place; ``noise`` is a factor."""
     rng = np.random.default_rng(seed)
     count = round(duration_s * rate_hz)
     t_s = np.arange(1, count + 1) / rate_hz
     C = attitude_matrix(*attitude)
     rate = earth_rate_enu_dps(latitude_deg) @ C + np.array(gyro_bias_deg_per_h) / 3600.0
     force = np.array([0.0, 0.0, float(normal_gravity_mps2(latitude_deg))]) @ C + np.array(accel_bias_mps2)
-    noise = rng.standard_normal((2, count, 3)) * np.sqrt(rate_hz)
-    gyro = rate + ANGLE_RANDOM_WALK / 60.0 * noise[0]
-    accel = force + VELOCITY_RANDOM_WALK * noise[1]
+    drawn = noise * np.sqrt(rate_hz) * rng.standard_normal((2, count, 3))
+    gyro = rate + ANGLE_RANDOM_WALK / 60.0 * drawn[0]
+    accel = force + VELOCITY_RANDOM_WALK * drawn[1]
     if disturbance is not None:
         disturbance(t_s, gyro, accel)
     columns = {"t_s": t_s}

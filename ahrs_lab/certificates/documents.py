@@ -168,7 +168,36 @@ class Chart:
     height: float = 118.0
 
 
-Block = Fields | Table | Paragraph | Heading | Chart
+@dataclass(frozen=True)
+class Line:
+    """One curve of a :class:`LineChart`: ``low`` and ``high`` are its band where there is one.
+
+    A value that is not finite leaves a gap. ``axis`` x, y, z takes the axis' colour; "" the next of the
+    chart's own."""
+
+    label: Label
+    points: tuple[tuple[float, float], ...]
+    low: tuple[float, ...] = ()
+    high: tuple[float, ...] = ()
+    axis: str = ""
+    style: Literal["line", "dashed", "points"] = "line"
+
+
+@dataclass(frozen=True)
+class LineChart:
+    """Curves on one pair of axes over the whole width, with a legend; ``marks`` are upright lines with their
+    names."""
+
+    lines: tuple[Line, ...]
+    x_label: Label
+    y_label: Label
+    marks: tuple[tuple[float, Label], ...] = ()
+    log_x: bool = False
+    log_y: bool = False
+    height: float = 165.0
+
+
+Block = Fields | Table | Paragraph | Heading | Chart | LineChart
 
 
 @dataclass(frozen=True)
@@ -236,6 +265,9 @@ def _of_block(block: Block) -> Iterator[tuple[str, RichText]]:
             yield from _of_label(text_of(y_label.main), y_label)
             for panel in panels:
                 yield text_of(panel.title), panel.title
+        case LineChart(lines, x_label, y_label, marks):
+            for item in (x_label, y_label, *(line.label for line in lines), *(name for _, name in marks)):
+                yield from _of_label(text_of(item.main), item)
 
 
 def texts_of(document: Document) -> Iterator[tuple[str, RichText]]:

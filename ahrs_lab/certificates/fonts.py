@@ -7,6 +7,7 @@ checked before the page is drawn.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -83,3 +84,13 @@ def check_glyphs(texts: Iterable[tuple[str, RichText]]) -> None:
                         code=f"{ord(character):04X}",
                         where=where,
                     )
+
+
+def printable(rich: RichText) -> RichText:
+    """``rich`` with “?” for what the fonts cannot show: for texts that nobody signs."""
+    known = _characters(font_name(is_bold=False))
+
+    def shown(character: str) -> str:
+        return character if character in _SPACES or ord(character) in known else "?"
+
+    return tuple(replace(run, text="".join(map(shown, run.text))) for run in rich)

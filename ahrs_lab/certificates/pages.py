@@ -13,6 +13,7 @@ from ahrs_lab.certificates.documents import (
     Fields,
     Heading,
     Label,
+    LineChart,
     Paragraph,
     Table,
 )
@@ -26,6 +27,7 @@ from ahrs_lab.certificates.drawing import (
     text_width,
     wrap,
 )
+from ahrs_lab.certificates.line_chart import LineChartBox
 from ahrs_lab.certificates.plot import ChartBox
 from ahrs_lab.certificates.richtext import RichText, bold, grey, joined, markup
 from ahrs_lab.certificates.tables import TableBox
@@ -63,6 +65,8 @@ def box_of(block: Block, labels: tuple[float, float] | None = None) -> Box:
             return HeadingBox(block)
         case Chart():
             return ChartBox(block)
+        case LineChart():
+            return LineChartBox(block)
 
 
 def boxes_of(blocks: Sequence[Block]) -> list[Box]:

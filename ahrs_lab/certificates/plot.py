@@ -27,7 +27,7 @@ def nice_ticks(low: float, high: float, most: int = 5) -> tuple[float, ...]:
     return tuple(i * step for i in range(first, max(last, first + 1) + 1))  # two at least, for a scale
 
 
-def _tick_text(value: float, step: float) -> RichText:
+def tick_text(value: float, step: float) -> RichText:
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
     return plain(format_grouped(f"{value + 0.0:.{decimals}f}" if abs(value) > step * 1e-6 else "0"))
 
@@ -65,7 +65,7 @@ class ChartBox:
 
     def draw(self, pen: Pen, x: float, top: float, width: float) -> None:
         step = self._y_ticks[1] - self._y_ticks[0]
-        texts = [_tick_text(value, step) for value in self._y_ticks]
+        texts = [tick_text(value, step) for value in self._y_ticks]
         gutter = max(text_width(text, _TICK_SIZE) for text in texts) + 5.0
         pen.text(x, top - _LABEL_SIZE, one_line(self._chart.y_label), _LABEL_SIZE, ink=GREY)
         count = len(self._chart.panels)
@@ -112,7 +112,7 @@ class ChartBox:
         for index, value in enumerate(self._x_ticks[: len(panel.names) or None]):
             place = self._place_x(value, left, wide)
             pen.rule(place, bottom, place, bottom - 2.5, ink=GREY, width=0.5)
-            text = plain(panel.names[index]) if panel.names else _tick_text(value, step)
+            text = plain(panel.names[index]) if panel.names else tick_text(value, step)
             pen.text(place, bottom - 9.5, text, _TICK_SIZE, ink=GREY, align="centre")
         pen.box(left, bottom, wide, self._chart.height, edge=RULE, line=0.5)
 

@@ -348,6 +348,12 @@ CHECK_WIDENED = Words(
 # Original record (原始记录) and plots
 RECORD_TITLE = Words("校准原始记录", "ORIGINAL RECORD OF CALIBRATION")
 PLOTS_TITLE = Words("校准数据图", "PLOTS OF THE CALIBRATION")
+ANALYSIS = Words("惯性系统分析", "Analysis of inertial systems")
+ANALYSIS_FOOTER = Words(
+    "由 {software} 生成的分析报告，不是校准证书。",
+    "Report of an analysis made by {software}; not a calibration certificate.",
+)
+ANALYSIS_WARNING = Words("警告：", "Warning: ")
 RECORD_NUMBER = Words("记录编号", "Record No.")
 RECORD_FOOTER = Words(
     "本记录由软件自记录包生成，数值未修约至不确定度。",

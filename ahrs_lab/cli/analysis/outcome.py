@@ -29,7 +29,7 @@ def run_kind(
     outcome = kind.run(bundles, {**kind.defaults(), **settings})
     show(
         outcome,
-        write_outcome(outcome, arguments.out).values() if arguments.out is not None else (),
+        write_outcome(outcome, arguments.out, bundles).values() if arguments.out is not None else (),
         arguments,
     )
     return 0

@@ -50,7 +50,10 @@ class Run(Protocol):
 @dataclass(frozen=True)
 class AnalysisKind:
     """``inputs`` names the recordings it takes, in their order (none for a pure computation such as the
-    propagation of an error); ``explains`` says in a sentence or two what it does and what it needs."""
+    propagation of an error); ``explains`` says in a sentence or two what it does and what it needs.
+
+    ``live``: fast enough to be done again while a setting is changed, so that the screen follows the settings
+    instead of waiting to be told."""
 
     key: str
     name: Message
@@ -58,6 +61,7 @@ class AnalysisKind:
     inputs: tuple[Message, ...]
     settings: tuple[Setting, ...]
     run: Run
+    live: bool = False
 
     def defaults(self) -> dict[str, Value]:
         """Each setting's default."""

@@ -100,7 +100,8 @@ class Workspace(QObject):
         self.worker_changed.emit()
 
     def go_to(self, page_key: str) -> None:
-        """Bring a page to the front: start, jobs, run, results, certificate, bench, setup."""
+        """Bring a page to the front: start, jobs, run, results, certificate, analyse, bench,
+        setup."""
         self.page_requested.emit(page_key)
 
     def notice(self, kind: NoticeKind, what: Message | str) -> None:

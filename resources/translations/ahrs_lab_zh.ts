@@ -93,6 +93,36 @@
     </message>
 </context>
 <context>
+    <name>AnalysisPage</name>
+    <message>
+        <source>Analyses of recordings</source>
+        <translation>记录数据分析</translation>
+    </message>
+    <message>
+        <source>Allan deviation, navigation, alignment and calibration of inertial units from recorded data will be here, with their tables and charts.</source>
+        <translation>这里将显示由记录数据进行的阿伦偏差、导航、对准和惯性测量单元标定等分析及其图表。</translation>
+    </message>
+</context>
+<context>
+    <name>AnalysisSettings</name>
+    <message>
+        <source>A number, please.</source>
+        <translation>请输入数值。</translation>
+    </message>
+    <message>
+        <source>From {low} to {high}.</source>
+        <translation>应在 {low} 至 {high} 之间。</translation>
+    </message>
+    <message>
+        <source>At least {low}.</source>
+        <translation>不应小于 {low}。</translation>
+    </message>
+    <message>
+        <source>At most {high}.</source>
+        <translation>不应大于 {high}。</translation>
+    </message>
+</context>
+<context>
     <name>BeforeRunCard</name>
     <message>
         <source>of bench time; mountings: {count}</source>
@@ -1418,6 +1448,24 @@
     </message>
 </context>
 <context>
+    <name>KindForm</name>
+    <message>
+        <source>Settings</source>
+        <translation>设置</translation>
+    </message>
+    <message>
+        <source>Defaults</source>
+        <translation>默认值</translation>
+    </message>
+</context>
+<context>
+    <name>KindList</name>
+    <message>
+        <source>no recording</source>
+        <translation>无需记录</translation>
+    </message>
+</context>
+<context>
     <name>Language</name>
     <message>
         <source>en</source>
@@ -1875,6 +1923,37 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Place in English</source>
         <translation>英文地点</translation>
+    </message>
+</context>
+<context>
+    <name>OutcomeCard</name>
+    <message>
+        <source>1 warning</source>
+        <translation>1 条警告</translation>
+    </message>
+    <message>
+        <source>{count} warnings</source>
+        <translation>{count} 条警告</translation>
+    </message>
+    <message>
+        <source>Settings changed</source>
+        <translation>设置已更改</translation>
+    </message>
+    <message>
+        <source>These are the results of other settings: run the analysis again.</source>
+        <translation>当前结果对应更改前的设置：请重新运行分析。</translation>
+    </message>
+    <message>
+        <source>Tables and charts will be here: choose what to analyse on the left, then run it.</source>
+        <translation>这里将显示表格和曲线：请在左侧选择要分析的记录，然后运行。</translation>
+    </message>
+    <message>
+        <source>Tables and charts will be here: check the settings on the left, then run it.</source>
+        <translation>这里将显示表格和曲线：请在左侧确认设置，然后运行。</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>保存…</translation>
     </message>
 </context>
 <context>
@@ -2546,6 +2625,48 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     </message>
 </context>
 <context>
+    <name>RecordingField</name>
+    <message>
+        <source>none chosen</source>
+        <translation>未选择</translation>
+    </message>
+    <message>
+        <source>Choose a recording.</source>
+        <translation>请选择记录。</translation>
+    </message>
+    <message>
+        <source>Recording folder</source>
+        <translation>记录文件夹</translation>
+    </message>
+    <message>
+        <source>Recording file</source>
+        <translation>记录文件</translation>
+    </message>
+    <message>
+        <source>Recordings (*.ahrsrec recording.toml)</source>
+        <translation>记录 (*.ahrsrec recording.toml)</translation>
+    </message>
+    <message>
+        <source>Look for a recording</source>
+        <translation>查找记录</translation>
+    </message>
+    <message>
+        <source>Folder…</source>
+        <translation>文件夹…</translation>
+    </message>
+    <message>
+        <source>File (.ahrsrec)…</source>
+        <translation>文件 (.ahrsrec)…</translation>
+    </message>
+</context>
+<context>
+    <name>Recordings</name>
+    <message>
+        <source>Job {number}</source>
+        <translation>任务 {number}</translation>
+    </message>
+</context>
+<context>
     <name>RepeatDialog</name>
     <message>
         <source>Repeat a segment</source>
@@ -2574,6 +2695,13 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Record it again</source>
         <translation>重新记录</translation>
+    </message>
+</context>
+<context>
+    <name>ReportView</name>
+    <message>
+        <source>Show all</source>
+        <translation>显示全部</translation>
     </message>
 </context>
 <context>
@@ -3396,6 +3524,13 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     </message>
 </context>
 <context>
+    <name>TextSetting</name>
+    <message>
+        <source>Choose a file</source>
+        <translation>选择文件</translation>
+    </message>
+</context>
+<context>
     <name>ValuesView</name>
     <message>
         <source>Quantity</source>
@@ -3723,6 +3858,45 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>{time} left</source>
         <translation>剩余 {time}</translation>
+    </message>
+</context>
+<context>
+    <name>Workbench</name>
+    <message>
+        <source>Folder for the files</source>
+        <translation>保存文件的文件夹</translation>
+    </message>
+    <message>
+        <source>Replace files</source>
+        <translation>替换文件</translation>
+    </message>
+    <message>
+        <source>The folder holds already: {names}.</source>
+        <translation>该文件夹中已有：{names}。</translation>
+    </message>
+    <message>
+        <source>Replace</source>
+        <translation>替换</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Saved in {folder}: {names}.</source>
+        <translation>已保存到 {folder}：{names}。</translation>
+    </message>
+    <message>
+        <source>Analyses</source>
+        <translation>分析项目</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>运行</translation>
+    </message>
+    <message>
+        <source>The charts follow the settings.</source>
+        <translation>曲线随设置实时更新。</translation>
     </message>
 </context>
 <context>

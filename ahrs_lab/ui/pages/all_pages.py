@@ -34,6 +34,11 @@ def page_entries(desk: Desk) -> tuple[PageEntry, ...]:
 
         return CertificatePage(desk)
 
+    def analyse() -> Page:
+        from ahrs_lab.ui.pages.analysis.page import AnalysisPage
+
+        return AnalysisPage(desk)
+
     def bench() -> Page:
         from ahrs_lab.ui.pages.bench import BenchPage
 
@@ -55,6 +60,7 @@ def page_entries(desk: Desk) -> tuple[PageEntry, ...]:
         PageEntry("run", run),
         PageEntry("results", results),
         PageEntry("certificate", certificate),
+        PageEntry("analyse", analyse),
         PageEntry("bench", bench),
         PageEntry("instruments", instruments),
         PageEntry("setup", setup),

@@ -1,0 +1,193 @@
+"""A report on the screen: its charts above, one in front at a time; below warnings, tables and notes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter
+from PySide6.QtWidgets import (
+    QScrollArea,
+    QSplitter,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from ahrs_lab.analysis.report import Report, Table
+from ahrs_lab.analysis.report_cells import number_columns, readable
+from ahrs_lab.ui.page import Translated
+from ahrs_lab.ui.pages.widgets.icon_line import IconLine
+from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
+from ahrs_lab.ui.pages.widgets.tabs import Tabs
+from ahrs_lab.ui.theme import CARD_MARGIN, GAP, STEP, font
+from ahrs_lab.ui.translation import said
+from ahrs_lab.ui.widgets import ElidedLabel, Label, rich_text
+
+if TYPE_CHECKING:
+    from ahrs_lab.ui.pages.analysis.chart_view import ChartView
+
+_SHARES = (3, 2)
+_CELL_PX = 11
+
+
+class _RichCells(QStyledItemDelegate):
+    """Powers of ten raised, indices lowered."""
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        text = str(index.data(Qt.ItemDataRole.DisplayRole))
+        if "{" not in text:
+            super().paint(painter, option, index)
+            return
+        painter.save()
+        colour = index.data(Qt.ItemDataRole.ForegroundRole)
+        painter.setPen(colour if isinstance(colour, QColor) else option.palette.text().color())
+        align = Qt.AlignmentFlag(index.data(Qt.ItemDataRole.TextAlignmentRole))
+        area = QRectF(option.rect).adjusted(_CELL_PX, 0, -_CELL_PX, 0)
+        rich_text.draw(painter, area, align, text, font())
+        painter.restore()
+
+
+class ReportTable(QWidget):
+    """Title and table, as high as its rows; wider ones scroll sideways."""
+
+    def __init__(self, table: Table) -> None:
+        super().__init__()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        self.title = Label(said(table.title), role="strong", wrap=True)
+        self.table = TextTable(selectable=False, compact=True)
+        self.table.setItemDelegate(_RichCells(self.table))
+        self.table.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        numbers = number_columns(table)
+        self.table.set_content(
+            [
+                Column(rich_text.plain(readable(said(head))), right=right)
+                for head, right in zip(table.head, numbers, strict=True)
+            ],
+            [
+                tuple(
+                    Cell(readable(said(cell)), "text" if place or numbers[0] else "muted")
+                    for place, cell in enumerate(row)
+                )
+                for row in table.rows
+            ],
+        )
+        column.addWidget(self.title)
+        column.addWidget(self.table)
+        self._fit()
+
+    def _fit(self) -> None:
+        rows = self.table.verticalHeader().defaultSectionSize() * self.table.model().rowCount()
+        head = self.table.horizontalHeader().sizeHint().height()
+        bar = self.table.horizontalScrollBar().sizeHint().height()
+        self.table.setFixedHeight(head + rows + bar)
+
+
+class ReportView(Translated):
+    """``show_report`` replaces all; with the same charts as before the one in front stays in front."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._report: Report | None = None
+        self.chart: ChartView | None = None
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        self._split = QSplitter(Qt.Orientation.Vertical)
+        self._split.setChildrenCollapsible(False)
+        self._split.setHandleWidth(CARD_MARGIN)
+        outer.addWidget(self._split)
+        self._charts = QWidget()
+        self._chart_column = QVBoxLayout(self._charts)
+        self._chart_column.setContentsMargins(0, 0, 0, 0)
+        self._chart_column.setSpacing(GAP)
+        self.tabs = Tabs()
+        self.tabs.setUsesScrollButtons(True)
+        self.tabs.currentChanged.connect(lambda _place: self._draw())
+        self._chart_title = ElidedLabel(role="strong")
+        self._chart_column.addWidget(self.tabs)
+        self._chart_column.addWidget(self._chart_title)
+        self._split.addWidget(self._charts)
+        self._area = QScrollArea()
+        self._area.setWidgetResizable(True)
+        self._area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._split.addWidget(self._area)
+        for place, share in enumerate(_SHARES):
+            self._split.setStretchFactor(place, share)
+        self._split.setSizes([100 * share for share in _SHARES])
+        self.tables: list[ReportTable] = []
+        self.lines: list[IconLine | Label] = []
+
+    def show_report(self, report: Report) -> None:
+        """In the language that is on."""
+        self._report = report
+        self._name_charts(report)
+        self._charts.setVisible(bool(report.charts))
+        self._write(report)
+        self._draw()
+
+    def texts(self) -> list[str]:
+        """Warnings and notes as they stand there."""
+        return [line.text() for line in self.lines]
+
+    def _name_charts(self, report: Report) -> None:
+        front = self.tabs.currentIndex()
+        self.tabs.blockSignals(True)
+        while self.tabs.count() > len(report.charts):
+            self.tabs.removeTab(self.tabs.count() - 1)
+        self.tabs.set_texts(*(said(chart.title) for chart in report.charts))
+        self.tabs.setCurrentIndex(max(0, min(front, self.tabs.count() - 1)))
+        self.tabs.blockSignals(False)
+        several = len(report.charts) > 1
+        self.tabs.setVisible(several)
+        self._chart_title.setVisible(not several)
+        self._chart_title.setText(said(report.charts[0].title) if report.charts else "")
+
+    def _draw(self) -> None:
+        if self._report is None or not self._report.charts:
+            return
+        if self.chart is None:
+            from ahrs_lab.ui.pages.analysis.chart_view import ChartView
+
+            self.chart = ChartView()
+            self.chart.whole.set_hint(self.tr("Show all"))
+            self._chart_column.addWidget(self.chart, 1)
+        self.chart.show_chart(self._report.charts[max(0, self.tabs.currentIndex())])
+
+    def _write(self, report: Report) -> None:
+        inside = QWidget()
+        inside.setObjectName("scrolled")
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(0, 0, GAP, 0)
+        column.setSpacing(CARD_MARGIN)
+        self.lines = [IconLine("warn", said(what)) for what in report.warnings]
+        for line in self.lines:
+            column.addWidget(line)
+        self.tables = [ReportTable(table) for table in report.tables]
+        for table in self.tables:
+            column.addWidget(table)
+        notes = [Label(said(note), tone="muted", wrap=True) for note in report.notes]
+        self.lines += notes
+        if notes:
+            column.addSpacing(STEP)
+        for note in notes:
+            column.addWidget(note)
+        column.addStretch(1)
+        place = self._area.verticalScrollBar().value()
+        old = self._area.takeWidget()
+        if old is not None:
+            old.deleteLater()
+        self._area.setWidget(inside)
+        self._area.verticalScrollBar().setValue(place)
+        self._area.setVisible(bool(report.warnings or report.tables or report.notes))
+
+    def retranslate(self) -> None:
+        if self._report is not None:
+            self.show_report(self._report)
+        if self.chart is not None:
+            self.chart.whole.set_hint(self.tr("Show all"))

@@ -1,0 +1,57 @@
+"""One line of text with raised and lowered parts (``10^{−5}``, ``φ_{E}``), measured and painted: for what
+paints itself. The fonts lack most Unicode superscripts."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter
+
+from ahrs_lab.certificates.richtext import RichText, markup, text_of
+
+_SMALL = 0.76
+_RAISE = {"": 0.0, "sup": -0.3, "sub": 0.16}
+
+
+@lru_cache(maxsize=4096)
+def parts(text: str) -> RichText:
+    """The text in runs of one appearance."""
+    return markup(text)
+
+
+def plain(text: str) -> str:
+    """Without its marks: for a tool tip, or what a reader of the screen says."""
+    return text_of(parts(text))
+
+
+def _font(base: QFont, shift: str) -> QFont:
+    if not shift:
+        return base
+    small = QFont(base)
+    small.setPixelSize(max(8, round(_SMALL * base.pixelSize())))
+    return small
+
+
+def width(text: str, base: QFont) -> float:
+    """Pixels."""
+    return sum(QFontMetricsF(_font(base, run.shift)).horizontalAdvance(run.text) for run in parts(text))
+
+
+def draw(painter: QPainter, area: QRectF, align: Qt.AlignmentFlag, text: str, base: QFont) -> None:
+    """In the painter's pen, on one line in the middle of ``area``'s height."""
+    metrics = QFontMetricsF(base)
+    wide = width(text, base)
+    x = area.left()
+    if align & Qt.AlignmentFlag.AlignRight:
+        x = area.right() - wide
+    elif align & Qt.AlignmentFlag.AlignHCenter:
+        x = area.center().x() - wide / 2
+    baseline = area.center().y() + (metrics.ascent() - metrics.descent()) / 2
+    if align & Qt.AlignmentFlag.AlignTop:
+        baseline = area.top() + metrics.ascent()
+    for run in parts(text):
+        font = _font(base, run.shift)
+        painter.setFont(font)
+        painter.drawText(QPointF(x, baseline + _RAISE[run.shift] * base.pixelSize()), run.text)
+        x += QFontMetricsF(font).horizontalAdvance(run.text)

@@ -24,11 +24,12 @@ def thinned(curve: Curve, places: int, *, log_x: bool = False) -> Curve:
     scale = np.log10(np.where(x > 0.0, x, np.nan)) if log_x else x
     if not np.isfinite(scale).all() or (np.diff(scale) < 0.0).any():
         step = -(-len(x) // (2 * places))
-        return _picked(curve, np.arange(0, len(x), step))
+        return _picked(curve, np.unique(np.append(np.arange(0, len(x), step), len(x) - 1)))
     span = float(scale[-1] - scale[0]) or 1.0
     place = np.minimum((scale - scale[0]) / span * places, places - 1).astype(np.int64)
     starts = np.concatenate(([0], np.flatnonzero(np.diff(place)) + 1))
-    return _picked(curve, np.unique(_extremes(np.asarray(curve.y, dtype=np.float64), starts)))
+    kept = _extremes(np.asarray(curve.y, dtype=np.float64), starts)
+    return _picked(curve, np.unique(np.append(kept, len(x) - 1)))
 
 
 def _extremes(y: Array, starts: NDArray[np.int64]) -> NDArray[np.int64]:

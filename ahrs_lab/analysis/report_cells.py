@@ -11,7 +11,7 @@ from ahrs_lab.analysis.report import Table, cell_text
 
 _MINUS = "\N{MINUS SIGN}"
 _SIGN = re.compile(r"(?<![\w.)\]-])-(?=[\d.])")
-_POWER = re.compile(r"(?<=\d)[eE]([+-]?)0*(\d+)")
+_POWER = re.compile(r"(?<![\w.])(\d+\.?\d*|\.\d+)[eE]([+-]?)0*(\d+)(?!\w)")
 _INDEX = re.compile(r"(?<![^\W\d_])([^\W\d_])_(\w{1,3})(?!\w)")
 _NUMBER = re.compile(r"[+\-−±≤≥<>~≈]?\s?(\d|\.\d)")
 _NOTHING = ("", "–", "—", "-", "−", "∞", "nan")
@@ -21,7 +21,7 @@ def readable(text: str) -> str:
     """``-1.2e-05`` as ``−1.2×10^{−5}``, ``φ_E`` as ``φ_{E}``: ``^{…}`` is raised, ``_{…}`` lowered."""
 
     def power(found: re.Match[str]) -> str:
-        return f"×10^{{{_MINUS if found[1] == '-' else ''}{found[2]}}}"
+        return f"{found[1]}×10^{{{_MINUS if found[2] == '-' else ''}{found[3]}}}"
 
     return _INDEX.sub(r"\1_{\2}", _SIGN.sub(_MINUS, _POWER.sub(power, text)))
 

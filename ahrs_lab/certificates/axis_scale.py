@@ -38,11 +38,11 @@ def linear_ticks(low: float, high: float, most: int) -> Ticks:
     span = high - low
     if not span > 0.0 or not math.isfinite(span):
         return Ticks((low,), (number_text(low, abs(low) or 1.0),))
-    step = _step(span / max(1, most))
-    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-    if last - first < 1:
-        step = _step(span / (2 * max(1, most)))
+    for divisions in (most, 2 * most, 4 * most):
+        step = _step(span / max(1, divisions))
         first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+        if last > first:
+            break
     values = tuple(place * step for place in range(first, last + 1))
     largest = max((abs(value) for value in values), default=1.0)
     return Ticks(values, tuple(number_text(value, step, largest) for value in values))
@@ -77,7 +77,9 @@ def _log_ticks(low: float, high: float, most: int) -> Ticks:
         return _short_log_ticks(low, high, most, range(first - 1, last + 1))
     step = -(-len(decades) // max(1, most))
     shown = [power for power in decades if power % step == 0]
-    minor: Sequence[float] = [10.0**power for power in decades if power % step]
+    if len(shown) < 2:  # one number alone gives no scale
+        shown = decades[::step]
+    minor: Sequence[float] = [10.0**power for power in decades if power not in shown]
     if step == 1:
         minor = [f * 10.0**power for power in range(first - 1, last + 1) for f in range(2, 10)]
     plain = all(_LEAST_PLAIN < power < _MOST_PLAIN for power in shown)
@@ -89,13 +91,17 @@ def _log_ticks(low: float, high: float, most: int) -> Ticks:
 
 
 def _short_log_ticks(low: float, high: float, most: int, decades: Sequence[int]) -> Ticks:
-    """A decade or two: numbers between the powers of ten too; less than a third of one: a linear scale."""
-    if high < 2.0 * low:
+    """A decade or two: numbers between the powers of ten too; much less: round steps."""
+    if high < 4.0 * low:
         return linear_ticks(low, high, most)
     every = [(f, power) for power in decades for f in range(1, 10) if _within(f * 10.0**power, low, high)]
+    chosen = every
     for fractions in _FRACTIONS:
-        chosen = [(f, power) for f, power in every if f in fractions]
-        if len(chosen) <= max(2, most):
+        fewer = [(f, power) for f, power in every if f in fractions]
+        if len(fewer) < 2:
+            break
+        chosen = fewer
+        if len(chosen) <= most:
             break
     return Ticks(
         tuple(f * 10.0**power for f, power in chosen),

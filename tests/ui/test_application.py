@@ -68,7 +68,7 @@ def test_choices_of_the_person_are_remembered(look: Look, laboratory: Laboratory
 
 def test_demonstration_has_every_page_and_its_operator_signed_in(look: Look, laboratory: Laboratory) -> None:
     screen = Screen(look.app, laboratory, demo=True)
-    keys = ["start", "jobs", "run", "results", "certificate", "bench", "instruments", "setup"]
+    keys = ["start", "jobs", "run", "results", "certificate", "analyse", "bench", "instruments", "setup"]
     assert list(screen.window.rail.buttons) == keys
     assert list(screen.window.pages) == ["start"]
     screen.window.make_all_pages()

@@ -89,6 +89,9 @@ class FakeLaboratory:
     def job(self, number: str) -> JobRow:
         return self.records.jobs.get(number)
 
+    def bundle(self, number: str) -> Path:
+        return self.home / "jobs" / number / "recording"
+
     def create_job(self, draft: JobDraft, actor: SignedIn) -> str:
         return self.records.jobs.create(draft, actor)
 

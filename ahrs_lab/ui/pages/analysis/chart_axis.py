@@ -14,9 +14,10 @@ from ahrs_lab.certificates.axis_scale import axis_ticks
 from ahrs_lab.ui.theme import font, tokens
 from ahrs_lab.ui.widgets import rich_text
 
-_ROOM_PX = {"left": 34, "bottom": 84}
+_ROOM_PX = {"left": 34, "bottom": 64}
 """For one number."""
 _MOST_DECADES = 300
+_BEYOND_PX = 16
 
 
 class ChartAxis(pg.AxisItem):  # type: ignore[misc]
@@ -60,6 +61,11 @@ class ChartAxis(pg.AxisItem):  # type: ignore[misc]
     def tickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
         del scale, spacing
         return [self._texts.get(value, "") for value in values]
+
+    def boundingRect(self) -> QRectF:
+        # With a grid pyqtgraph leaves out what reaches beyond the plot: the number at its very edge.
+        wide, high = (0, _BEYOND_PX) if self.orientation == "left" else (_BEYOND_PX, 0)
+        return QRectF(super().boundingRect()).adjusted(-wide, -high, wide, high)
 
     def drawPicture(
         self,

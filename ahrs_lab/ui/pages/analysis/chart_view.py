@@ -6,6 +6,7 @@ pyqtgraph is imported with this module: import it when the first chart is needed
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -79,6 +80,8 @@ class ChartView(QWidget):
         # pyqtgraph makes this menu all the same, as a window of nobody's: it has to go with the plot.
         self._plot.ctrlMenu.setParent(self, self._plot.ctrlMenu.windowFlags())
         self._plot.setContentsMargins(0, STEP, 3 * STEP, 0)
+        for axis in self._axes.values():
+            axis.setZValue(-1000)  # the grid lies below the curves
         self._box = self._plot.getViewBox()
         self._box.setDefaultPadding(0.0)
         self._box.disableAutoRange()
@@ -129,7 +132,8 @@ class ChartView(QWidget):
         self._cursor.setVisible(False)
         self._plot.addItem(self._cursor, ignoreBounds=True)
         self.legend.set_entries(
-            [Entry(_shown(c.label), look) for c, look in zip(chart.curves, self._looks, strict=True)]
+            [Entry(_shown(c.label), look) for c, look in zip(chart.curves, self._looks, strict=True)],
+            _widest(self._drawn),
         )
         self.show_whole()
 
@@ -171,7 +175,7 @@ class ChartView(QWidget):
             self._axes[side].restyle()
             style = {"color": look.muted, "font-size": f"{TEXT_PX}px"}
             self._axes[side].setLabel(_html(_shown(label)), **style)
-        pen = QPen(look.colour("muted"), 1, Qt.PenStyle.DashLine)
+        pen = QPen(look.colour("faint"), 1)
         pen.setCosmetic(True)
         self._cursor.setPen(pen)
 
@@ -228,6 +232,7 @@ class ChartView(QWidget):
             name = pg.TextItem(html=_html(_shown(mark.label), look.text), fill=pg.mkBrush(back))
             name.textItem.document().setDocumentMargin(2)
             name.setFont(font())
+            name.setZValue(10)
             self._plot.addItem(line, ignoreBounds=True)
             self._plot.addItem(name, ignoreBounds=True)
             self._marks.append((x, name))
@@ -294,7 +299,11 @@ class ChartView(QWidget):
             self._cursor.setVisible(False)
             self.legend.set_values("", ())
             return
-        x = self._box.mapSceneToView(self.canvas.mapToScene(position.toPoint())).x()
+        pointed = self._box.mapSceneToView(self.canvas.mapToScene(position.toPoint())).x()
+        near = [_nearest(*self._points(curve), pointed) for curve in chart.curves]
+        x = min(
+            (place for place in near if place is not None), key=lambda p: abs(p - pointed), default=pointed
+        )
         self._cursor.setPos(x)
         self._cursor.setVisible(True)
         values = [_value_at(*self._points(curve), np.asarray(curve.y), x) for curve in chart.curves]
@@ -343,6 +352,24 @@ def _span(values: Array, margin: float, *, log: bool) -> tuple[float, float]:
     low, high = float(good.min()), float(good.max())
     air = margin * (high - low) or 0.5 * (1.0 if log else abs(low) or 1.0)
     return low - air, high + air
+
+
+def _widest(curves: Sequence[Curve]) -> str:
+    """A text as wide as the widest value of the curves."""
+    texts = [
+        readable(f"{value:.4g}")
+        for curve in curves
+        for value in (np.asarray(curve.y)[np.isfinite(curve.y)][:: max(1, len(curve.y) // 50)]).tolist()
+    ]
+    powers = any("^" in text for text in texts)
+    sign = "−" if any(text.startswith("−") for text in texts) else ""
+    return sign + ("0.000×10^{−00}" if powers else max((t.lstrip("−") for t in texts), key=len, default=""))
+
+
+def _nearest(x: Array, y: Array, place: float) -> float | None:
+    """Where the point nearest to ``place`` is that has a value."""
+    good = x[np.isfinite(x) & np.isfinite(y)]
+    return float(good[np.argmin(np.abs(good - place))]) if good.size else None
 
 
 def _value_at(x: Array, y: Array, values: Array, place: float) -> str:

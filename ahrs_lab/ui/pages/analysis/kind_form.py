@@ -16,7 +16,7 @@ from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.analysis.recording_field import RecordingField
 from ahrs_lab.ui.pages.analysis.recordings import RecordingShelf
 from ahrs_lab.ui.pages.analysis.setting_fields import SettingField, field_of
-from ahrs_lab.ui.theme import CARD_MARGIN, GAP
+from ahrs_lab.ui.theme import CARD_MARGIN
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Label, QuietButton
 
@@ -30,9 +30,10 @@ class Asked:
 
 
 class KindForm(Translated):
-    """``edited`` tells every change by the person."""
+    """``edited`` tells every change by the person, ``submitted`` that Return was pressed in a field."""
 
     edited = Signal()
+    submitted = Signal()
 
     def __init__(self, kind: AnalysisKind, shelf: RecordingShelf) -> None:
         super().__init__()
@@ -53,7 +54,7 @@ class KindForm(Translated):
         inside = QWidget()
         inside.setObjectName("scrolled")
         self._column = QVBoxLayout(inside)
-        self._column.setContentsMargins(0, 0, GAP, 0)
+        self._column.setContentsMargins(0, 0, 2, 0)
         self._column.setSpacing(CARD_MARGIN)
         area = QScrollArea()
         area.setFrameShape(QFrame.Shape.NoFrame)
@@ -82,6 +83,7 @@ class KindForm(Translated):
         self._column.addLayout(head)
         for field in self.fields.values():
             field.edited.connect(self.edited)
+            field.submitted.connect(self.submitted)
             self._column.addWidget(field)
         self._column.addStretch(1)
 

@@ -16,9 +16,8 @@ from ahrs_lab.ui.widgets import rich_text
 
 _LINE_PX = 20
 _SWATCH_PX = 24
-_GAP_PX = 18
-_VALUE = "−0.0000×10^{−00}"
-"""Room for any value, so that nothing moves while the cursor does."""
+_GAP_PX = 16
+_BESIDE_PX = 6
 
 
 @dataclass(frozen=True)
@@ -36,12 +35,15 @@ class Legend(QWidget):
         super().__init__()
         self._entries: tuple[Entry, ...] = ()
         self._values: tuple[str, ...] = ()
+        self._room = ""
         self._place = ""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
-    def set_entries(self, entries: Sequence[Entry]) -> None:
-        """Other curves; nothing is under the cursor."""
+    def set_entries(self, entries: Sequence[Entry], room: str) -> None:
+        """Other curves; nothing is under the cursor. ``room`` is the widest value, so that nothing moves
+        while the cursor does."""
         self._entries = tuple(entries)
+        self._room = room
         self.set_values("", ())
         self._fit()
 
@@ -61,14 +63,14 @@ class Legend(QWidget):
 
     def _spots(self) -> list[QPointF]:
         """Upper left corners of the entries, and last of the cursor's place."""
-        value = rich_text.width(_VALUE, font()) + STEP
+        value = rich_text.width(self._room, font()) + STEP
         widths = [
-            _SWATCH_PX + STEP + rich_text.width(entry.name, font()) + STEP + value + _GAP_PX
+            _SWATCH_PX + _BESIDE_PX + rich_text.width(entry.name, font()) + STEP + value + _GAP_PX
             for entry in self._entries
         ]
         spots: list[QPointF] = []
         x, line = 0.0, 0
-        for wide in [*widths, 2 * value]:
+        for wide in [*widths, 3 * value]:
             if x and x + wide - _GAP_PX > self.width():
                 x, line = 0.0, line + 1
             spots.append(QPointF(x, line * _LINE_PX))
@@ -94,7 +96,7 @@ class Legend(QWidget):
         for number, (entry, spot) in enumerate(zip(self._entries, spots, strict=True)):
             middle = spot.y() + _LINE_PX / 2
             _paint_swatch(painter, entry.look, QPointF(spot.x(), middle))
-            x = spot.x() + _SWATCH_PX + STEP
+            x = spot.x() + _SWATCH_PX + _BESIDE_PX
             name = rich_text.width(entry.name, font())
             painter.setPen(tokens().colour("muted"))
             rich_text.draw(painter, QRectF(x, spot.y(), name, _LINE_PX), left, entry.name, font())

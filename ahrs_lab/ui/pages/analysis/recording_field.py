@@ -13,7 +13,7 @@ from ahrs_lab.ui.pages.analysis.recordings import RecordingShelf, recording_of
 from ahrs_lab.ui.pages.widgets.form import ChoiceField
 from ahrs_lab.ui.theme import STEP
 from ahrs_lab.ui.translation import said
-from ahrs_lab.ui.widgets import ElidedLabel, IconButton
+from ahrs_lab.ui.widgets import ElidedLabel, IconButton, Label
 
 
 class RecordingField(Translated):
@@ -29,15 +29,18 @@ class RecordingField(Translated):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
+        self._name = Label(tone="muted")
         row = QHBoxLayout()
         row.setSpacing(STEP)
         self.field = ChoiceField()
+        self.field.show_name(False)
         self.field.edited.connect(self._chosen)
         self.seek = IconButton("folder")
         self.seek.clicked.connect(self._ask)
         row.addWidget(self.field, 1)
-        row.addWidget(self.seek, 0, Qt.AlignmentFlag.AlignBottom)
+        row.addWidget(self.seek, 0, Qt.AlignmentFlag.AlignTop)
         self._where = ElidedLabel(tone="faint", mode=Qt.TextElideMode.ElideMiddle)
+        column.addWidget(self._name)
         column.addLayout(row)
         column.addWidget(self._where)
         self._menu = QMenu(self)
@@ -106,6 +109,7 @@ class RecordingField(Translated):
         return str(chosen.parent if chosen is not None else Path.home())
 
     def retranslate(self) -> None:
+        self._name.setText(said(self._label))
         self.field.set_name(said(self._label))
         self.seek.set_hint(self.tr("Look for a recording"))
         self._folder.setText(self.tr("Folder…"))

@@ -145,8 +145,9 @@ class ReportView(Translated):
         self.tabs.blockSignals(False)
         several = len(report.charts) > 1
         self.tabs.setVisible(several)
-        self._chart_title.setVisible(not several)
-        self._chart_title.setText(said(report.charts[0].title) if report.charts else "")
+        title = said(report.charts[0].title) if report.charts else ""
+        self._chart_title.setText(title)
+        self._chart_title.setVisible(not several and title != said(report.title))
 
     def _draw(self) -> None:
         if self._report is None or not self._report.charts:

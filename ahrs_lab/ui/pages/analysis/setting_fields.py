@@ -22,9 +22,11 @@ _UNIT_GAP_PX = 9
 
 
 class SettingField(QWidget):
-    """``edited`` tells every change by the person. Subclasses fill the column above the message."""
+    """``edited`` tells every change by the person, ``submitted`` that Return was pressed. Subclasses fill the
+    column above the message."""
 
     edited = Signal()
+    submitted = Signal()
 
     def __init__(self, setting: Setting) -> None:
         super().__init__()
@@ -90,6 +92,7 @@ class NumberSetting(SettingField):
         self.line = _UnitLine(setting.unit)
         self.line.setFixedWidth(_NUMBER_PX)
         self.line.textEdited.connect(self._typed)
+        self.line.returnPressed.connect(self.submitted)
         self._name = Label(wrap=True)
         self._name.setBuddy(self.line)
         row = QHBoxLayout()
@@ -182,8 +185,12 @@ class TextSetting(SettingField):
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
+        self._name = Label(tone="muted")
+        self.column.addWidget(self._name)
         self.field = TextField()
+        self.field.show_name(False)
         self.field.edited.connect(self.edited)
+        self.field.line.returnPressed.connect(self.submitted)
         row = QHBoxLayout()
         row.setSpacing(STEP)
         row.addWidget(self.field, 1)
@@ -191,7 +198,7 @@ class TextSetting(SettingField):
         if setting.kind == "file":
             self.seek = IconButton("folder")
             self.seek.clicked.connect(self._look)
-            row.addWidget(self.seek, 0, Qt.AlignmentFlag.AlignBottom)
+            row.addWidget(self.seek, 0, Qt.AlignmentFlag.AlignTop)
         self.column.addLayout(row)
         self.column.addWidget(self._message)
         self.put(setting.default)
@@ -210,6 +217,7 @@ class TextSetting(SettingField):
         self.field.set_text(str(value))
 
     def retranslate(self) -> None:
+        self._name.setText(said(self.setting.label))
         self.field.set_name(said(self.setting.label))
         if self.seek is not None:
             self.seek.set_hint(self.tr("Choose a file"))

@@ -82,6 +82,7 @@ class Workbench(Translated):
         if form is None:
             form = self._forms[key] = KindForm(self._kinds[key], self._shelf)
             form.edited.connect(self._edited)
+            form.submitted.connect(self.start)
             self._stack.addWidget(form)
         self.form = form
         form.refresh()

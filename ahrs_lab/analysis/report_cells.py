@@ -11,8 +11,8 @@ from ahrs_lab.analysis.report import Table, cell_text
 
 _MINUS = "\N{MINUS SIGN}"
 _SIGN = re.compile(r"(?<![\w.)\]-])-(?=[\d.])")
-_POWER = re.compile(r"(?<![\w.])(\d+\.?\d*|\.\d+)[eE]([+-]?)0*(\d+)(?!\w)")
-_INDEX = re.compile(r"(?<![^\W\d_])([^\W\d_])_(\w{1,3})(?!\w)")
+_POWER = re.compile(r"(?<![\w.])(\d+\.?\d*|\.\d+)[eE]([+-]?)0*(\d+)(?!\w)|(?<=\d\))[eE]([+-]?)0*(\d+)(?!\w)")
+_INDEX = re.compile(r"(?<![\w./\\-])([^\W\d_])_(\w{1,3})(?!\w|\.\w)")
 _NUMBER = re.compile(r"[+\-−±≤≥<>~≈]?\s?(\d|\.\d)")
 _NOTHING = ("", "–", "—", "-", "−", "∞", "nan")
 
@@ -21,7 +21,8 @@ def readable(text: str) -> str:
     """``-1.2e-05`` as ``−1.2×10^{−5}``, ``φ_E`` as ``φ_{E}``: ``^{…}`` is raised, ``_{…}`` lowered."""
 
     def power(found: re.Match[str]) -> str:
-        return f"{found[1]}×10^{{{_MINUS if found[2] == '-' else ''}{found[3]}}}"
+        mantissa, sign, digits = found[1] or "", found[2] or found[4], found[3] or found[5]
+        return f"{mantissa}×10^{{{_MINUS if sign == '-' else ''}{digits}}}"
 
     return _INDEX.sub(r"\1_{\2}", _SIGN.sub(_MINUS, _POWER.sub(power, text)))
 

@@ -3,13 +3,15 @@ paints itself. The fonts lack most Unicode superscripts."""
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter
 
-from ahrs_lab.certificates.richtext import RichText, markup, text_of
+from ahrs_lab.certificates.richtext import RichText, markup
 
+_MARKS = re.compile(r"[_^]\{(.*?)\}")
 _SMALL = 0.76
 _RAISE = {"": 0.0, "sup": -0.3, "sub": 0.16}
 
@@ -22,7 +24,7 @@ def parts(text: str) -> RichText:
 
 def plain(text: str) -> str:
     """Without its marks: for a tool tip, or what a reader of the screen says."""
-    return text_of(parts(text))
+    return _MARKS.sub(r"\1", text)
 
 
 def _font(base: QFont, shift: str) -> QFont:

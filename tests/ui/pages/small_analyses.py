@@ -90,7 +90,8 @@ def mean_rates(bundles: Sequence[Path], settings: Mapping[str, Value]) -> Outcom
         rate = rate - rate.mean(axis=0)
     step = max(1, round(window * record.header.device.sample_rate_hz))
     means = _means(rate, step)
-    t_s = (np.arange(len(means)) + 1.0) * step / record.header.device.sample_rate_hz
+    rate_hz = float(record.header.device.sample_rate_hz)
+    t_s = np.asarray((np.arange(len(means)) + 1.0) * step / rate_hz, dtype=np.float64)
     sizes = np.unique(np.geomspace(1, len(rate) // 10, 24).astype(int))
     tau = np.asarray(sizes / record.header.device.sample_rate_hz, dtype=np.float64)
     scatter = np.array([_means(rate, size).std(axis=0, ddof=1) for size in sizes], dtype=np.float64)
@@ -192,13 +193,15 @@ class Gate:
         self.open = threading.Event()
         self.started = threading.Event()
         self.defect = False
+        self.asked: list[Value] = []
 
     def run(self, bundles: Sequence[Path], settings: Mapping[str, Value]) -> Outcome:
+        self.asked.append(settings.get("period_s", 10.0))
         self.started.set()
         self.open.wait(20.0)
         if self.defect:
             raise ZeroDivisionError("a defect")
-        return swing(bundles, {"period_s": 10.0, "damping": 0.02})
+        return swing(bundles, {"period_s": 10.0, "damping": 0.02, **settings})
 
     def kind(self) -> AnalysisKind:
         return AnalysisKind("gate", Message("Damped swing"), Message("Damped swing"), (), (), self.run)

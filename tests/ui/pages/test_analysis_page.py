@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -387,6 +390,39 @@ def test_a_defect_does_not_leave_the_page_waiting(
         scene.run()
     assert [kind for kind, _, _ in caught] == [ZeroDivisionError]
     assert scene.bench.run.isEnabled()
+
+
+def test_a_live_analysis_that_is_slow_ends_with_the_last_settings(
+    desk: Desk, look: Look, qtbot: QtBot, laboratory: FakeLaboratory
+) -> None:
+    gate = Gate()
+    kind = replace(SWING, run=gate.run)
+    scene = Scene(desk, look, qtbot, (REST, kind), laboratory.home)
+    try:
+        scene.bench.choose("swing")
+        qtbot.waitUntil(gate.started.is_set)
+        for text in ("20", "30", "40"):
+            scene.type("period_s", text)
+        qtbot.wait(300)
+        assert gate.asked == [12.0]
+    finally:
+        gate.open.set()
+    scene.settle()
+    assert gate.asked == [12.0, 40.0]
+    chart = scene.bench.outcome.report.chart
+    assert chart is not None
+    assert chart.mark_names()[0] == "period 40 s"
+
+
+def test_the_page_brings_no_plots_and_no_systems_before_it_is_entered() -> None:
+    """The first window does not wait for them."""
+    code = (
+        "import sys; import ahrs_lab.ui.pages.analysis.page; "
+        "print([name for name in ('pyqtgraph', 'scipy', 'reportlab', 'ahrs_lab.laboratory.analyses') "
+        "if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])

@@ -37,7 +37,8 @@ class OutcomeCard(Translated):
         outer.setContentsMargins(0, 0, 0, 0)
         card = Card()
         outer.addWidget(card)
-        card.add(self._make_head())
+        self._head = self._make_head()
+        card.add(self._head)
         self.banner = Banner("bad", closable=True)
         self.banner.setVisible(False)
         self.banner.closed.connect(self.error_closed)
@@ -114,6 +115,7 @@ class OutcomeCard(Translated):
             self._second.stop()
             self.bar.set_value(0.0)
             self._progress.setVisible(False)
+            self._show_head()
 
     def progress_shown(self) -> bool:
         """The bar runs."""
@@ -123,7 +125,12 @@ class OutcomeCard(Translated):
         self.bar.set_value(None)
         self._time.setText("")
         self._progress.setVisible(True)
+        self._show_head()
         self._second.start()
+
+    def _show_head(self) -> None:
+        """Not an empty line above what will be here."""
+        self._head.setVisible(self._outcome is not None or self._progress.isVisibleTo(self._head))
 
     def _tell_time(self) -> None:
         seconds = self._since.elapsed() // 1000
@@ -134,6 +141,7 @@ class OutcomeCard(Translated):
     def _name(self) -> None:
         kind, outcome = self._kind, self._outcome
         self.save.setVisible(outcome is not None)
+        self._show_head()
         warnings = len(outcome.report.warnings) if outcome is not None else 0
         self.warnings.setVisible(warnings > 0)
         self.warnings.set_content(

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QMenu, QVBoxLayout
 from ahrs_lab.messages import Message
 from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.analysis.recordings import RecordingShelf, recording_of
+from ahrs_lab.ui.pages.analysis.setting_values import titled
 from ahrs_lab.ui.pages.widgets.form import ChoiceField
 from ahrs_lab.ui.theme import STEP
 from ahrs_lab.ui.translation import said
@@ -109,7 +110,7 @@ class RecordingField(Translated):
         return str(chosen.parent if chosen is not None else Path.home())
 
     def retranslate(self) -> None:
-        self._name.setText(said(self._label))
+        self._name.setText(titled(said(self._label)))
         self.field.set_name(said(self._label))
         self.seek.set_hint(self.tr("Look for a recording"))
         self._folder.setText(self.tr("Folder…"))

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 _SHARES = (3, 2)
 _CELL_PX = 11
+_HEADING_PX = 96
 
 
 class _RichCells(QStyledItemDelegate):
@@ -66,7 +67,7 @@ class ReportTable(QWidget):
         numbers = number_columns(table)
         self.table.set_content(
             [
-                Column(rich_text.plain(readable(said(head))), right=right)
+                Column(_in_lines(rich_text.plain(readable(said(head))), self.table), right=right)
                 for head, right in zip(table.head, numbers, strict=True)
             ],
             [
@@ -86,6 +87,18 @@ class ReportTable(QWidget):
         head = self.table.horizontalHeader().sizeHint().height()
         bar = self.table.horizontalScrollBar().sizeHint().height()
         self.table.setFixedHeight(head + rows + bar)
+
+
+def _in_lines(heading: str, table: QWidget) -> str:
+    """A long heading over several lines, so that its column is not much wider than its numbers."""
+    metrics = table.fontMetrics()
+    lines: list[str] = []
+    for word in heading.split(" "):
+        if lines and metrics.horizontalAdvance(f"{lines[-1]} {word}") <= _HEADING_PX:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(word)
+    return "\n".join(lines)
 
 
 class ReportView(Translated):

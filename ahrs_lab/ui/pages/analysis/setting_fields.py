@@ -10,7 +10,7 @@ from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from ahrs_lab.laboratory.analyses.kinds import Setting, Value
-from ahrs_lab.ui.pages.analysis.setting_values import fault_of_number, number_text, typed_number
+from ahrs_lab.ui.pages.analysis.setting_values import fault_of_number, number_text, titled, typed_number
 from ahrs_lab.ui.pages.widgets.form import ChoiceField, TextField
 from ahrs_lab.ui.pages.widgets.tick_box import TickBox
 from ahrs_lab.ui.theme import GAP, STEP, tokens
@@ -123,7 +123,7 @@ class NumberSetting(SettingField):
         super().set_error(text)
 
     def retranslate(self) -> None:
-        self._name.setText(said(self.setting.label))
+        self._name.setText(titled(said(self.setting.label)))
         self.line.setAccessibleName(said(self.setting.label))
         if self.error():
             self.read()
@@ -144,8 +144,8 @@ class ChoiceSetting(SettingField):
         self.put(setting.default)
 
     def _fill(self) -> None:
-        self.field.set_name(said(self.setting.label))
-        self.field.set_choices([(key, said(text)) for key, text in self.setting.choices])
+        self.field.set_name(titled(said(self.setting.label)))
+        self.field.set_choices([(key, titled(said(text))) for key, text in self.setting.choices])
 
     def read(self) -> str:
         return self.field.key()
@@ -176,7 +176,7 @@ class FlagSetting(SettingField):
         self.box.setChecked(bool(value))
 
     def retranslate(self) -> None:
-        self.box.setText(said(self.setting.label))
+        self.box.setText(titled(said(self.setting.label)))
         super().retranslate()
 
 
@@ -217,7 +217,7 @@ class TextSetting(SettingField):
         self.field.set_text(str(value))
 
     def retranslate(self) -> None:
-        self._name.setText(said(self.setting.label))
+        self._name.setText(titled(said(self.setting.label)))
         self.field.set_name(said(self.setting.label))
         if self.seek is not None:
             self.seek.set_hint(self.tr("Choose a file"))

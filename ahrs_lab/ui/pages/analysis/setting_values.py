@@ -12,6 +12,11 @@ from ahrs_lab.ui.formatting import MINUS, NO_BREAK_SPACE, THIN_SPACE
 _PLAIN_DIGITS = 12
 
 
+def titled(text: str) -> str:
+    """An English name begins with a capital letter, wherever its author wrote it; a symbol stays as it is."""
+    return text[:1].upper() + text[1:] if text[:2].isascii() and text[:2].isalpha() else text
+
+
 def number_text(value: float) -> str:
     """As it is typed: no more digits than are meant, a true minus."""
     return f"{value:.{_PLAIN_DIGITS}g}".replace("-", MINUS)

@@ -48,7 +48,6 @@ class Workbench(Translated):
         self._live_note = Label(tone="muted", wrap=True)
         self._debounce = QTimer(self)
         self._debounce.setSingleShot(True)
-        self._debounce.setInterval(LIVE_MS)
         self._debounce.timeout.connect(self.start)
         self.setAcceptDrops(True)
         self._lay_out()
@@ -90,7 +89,8 @@ class Workbench(Translated):
         self.kinds.set_current(key)
         self._form_card.set_title(said(form.kind.name))
         self._show()
-        if form.kind.live and form.outcome is None and form.error is None and not form.running:
+        new = form.outcome is None and form.error is None
+        if form.kind.live and not form.running and (new or form.again):
             self.start()
 
     def refresh(self) -> None:
@@ -117,7 +117,7 @@ class Workbench(Translated):
             return
         if form.kind.live:
             form.again = form.running
-            self._debounce.start()
+            self._debounce.start(LIVE_MS)
         self.outcome.mark_changed(form.changed() and not form.kind.live)
 
     # work -----------------------------------------------------------------------------------------------

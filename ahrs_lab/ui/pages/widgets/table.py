@@ -33,8 +33,8 @@ class Cell:
 
 @dataclass(frozen=True)
 class Column:
-    """A heading; ``right`` for numbers, ``stretch`` takes what is left, ``least`` is its smallest width in
-    pixels."""
+    """A heading of one or several lines; ``right`` for numbers, ``stretch`` takes what is left, ``least`` is
+    its smallest width in pixels."""
 
     heading: str
     right: bool = False
@@ -231,7 +231,7 @@ class TextTable(QTableView):
             if column.stretch:
                 header.setSectionResizeMode(number, QHeaderView.ResizeMode.Stretch)
                 continue
-            widths = [plain.horizontalAdvance(column.heading)]
+            widths = [plain.horizontalAdvance(line) for line in column.heading.split("\n")]
             for row in self._model.rows:
                 cell = row[number]
                 widths.append((strong if cell.strong else plain).horizontalAdvance(cell.text))

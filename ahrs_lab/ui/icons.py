@@ -71,6 +71,7 @@ _GLYPHS = {
     "back": "arrow-left",
     "more": "dots-three",
     "print": "printer",
+    "copy": "copy",
     "zoom_in": "magnifying-glass-plus",
     "zoom_out": "magnifying-glass-minus",
 }

@@ -2698,6 +2698,13 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     </message>
 </context>
 <context>
+    <name>ReportTable</name>
+    <message>
+        <source>Copy the table</source>
+        <translation>复制表格</translation>
+    </message>
+</context>
+<context>
     <name>ReportView</name>
     <message>
         <source>Show all</source>

@@ -192,6 +192,16 @@ def test_defaults_come_back_with_a_button(scene: Scene) -> None:
     assert (scene.number("window_s").line.text(), scene.number("window_s").error()) == ("1", "")
 
 
+def test_a_table_can_be_copied_into_a_spreadsheet(scene: Scene) -> None:
+    scene.run()
+    scene.bench.outcome.report.tables[0].copy.click()
+    rows = [line.split("\t") for line in scene.look.app.clipboard().text().splitlines()]
+    assert [len(row) for row in rows] == [5, 5, 5, 5]
+    assert rows[0][0] == "axis"
+    assert float(rows[2][1]) == pytest.approx(-0.2, abs=0.01)
+    assert float(rows[1][4]) == -2.5e-07
+
+
 def test_a_missing_recording_is_said_at_its_field(scene: Scene) -> None:
     scene.bench.choose("comparison")
     scene.run()

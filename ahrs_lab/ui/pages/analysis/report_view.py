@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter
+from PySide6.QtGui import QColor, QGuiApplication, QPainter, QResizeEvent
 from PySide6.QtWidgets import (
+    QHBoxLayout,
     QScrollArea,
     QSplitter,
     QStyledItemDelegate,
@@ -23,14 +24,16 @@ from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
 from ahrs_lab.ui.pages.widgets.tabs import Tabs
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP, STEP, font
 from ahrs_lab.ui.translation import said
-from ahrs_lab.ui.widgets import ElidedLabel, Label, rich_text
+from ahrs_lab.ui.widgets import ElidedLabel, IconButton, Label, rich_text
 
 if TYPE_CHECKING:
     from ahrs_lab.ui.pages.analysis.chart_view import ChartView
 
 _SHARES = (3, 2)
 _CELL_PX = 11
-_HEADING_PX = 96
+_HEADING_PX = 84
+_COPY_PX = 20
+_LEAST_PX, _NO_LIMIT_PX = 90, 16_777_215
 
 
 class _RichCells(QStyledItemDelegate):
@@ -53,14 +56,23 @@ class _RichCells(QStyledItemDelegate):
 
 
 class ReportTable(QWidget):
-    """Title and table, as high as its rows; wider ones scroll sideways."""
+    """Title and table, as high as its rows; wider ones scroll sideways. ``copy`` puts it on the clipboard, as
+    a spreadsheet takes it."""
 
     def __init__(self, table: Table) -> None:
         super().__init__()
+        self._content = table
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
+        head = QHBoxLayout()
         self.title = Label(said(table.title), role="strong", wrap=True)
+        self.copy = IconButton("copy")
+        self.copy.setFixedHeight(_COPY_PX)
+        self.copy.set_hint(self.tr("Copy the table"))
+        self.copy.clicked.connect(self._copy)
+        head.addWidget(self.title, 1)
+        head.addWidget(self.copy, 0, Qt.AlignmentFlag.AlignTop)
         self.table = TextTable(selectable=False, compact=True)
         self.table.setItemDelegate(_RichCells(self.table))
         self.table.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -78,15 +90,24 @@ class ReportTable(QWidget):
                 for row in table.rows
             ],
         )
-        column.addWidget(self.title)
+        column.addLayout(head)
         column.addWidget(self.table)
         self._fit()
+
+    def _copy(self) -> None:
+        rows = [[said(cell) for cell in row] for row in (self._content.head, *self._content.rows)]
+        QGuiApplication.clipboard().setText("\n".join("\t".join(row) for row in rows))
 
     def _fit(self) -> None:
         rows = self.table.verticalHeader().defaultSectionSize() * self.table.model().rowCount()
         head = self.table.horizontalHeader().sizeHint().height()
-        bar = self.table.horizontalScrollBar().sizeHint().height()
+        wider = self.table.horizontalHeader().length() > self.width()
+        bar = self.table.horizontalScrollBar().sizeHint().height() if wider else 2
         self.table.setFixedHeight(head + rows + bar)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit()
 
 
 def _in_lines(heading: str, table: QWidget) -> str:
@@ -197,8 +218,23 @@ class ReportView(Translated):
         if old is not None:
             old.deleteLater()
         self._area.setWidget(inside)
+        self._fit()
         self._area.verticalScrollBar().setValue(place)
         self._area.setVisible(bool(report.warnings or report.tables or report.notes))
+
+    def _fit(self) -> None:
+        """What the tables do not need is the chart's."""
+        inside = self._area.widget()
+        layout = inside.layout() if inside is not None else None
+        if layout is None or self._report is None:
+            return
+        needed = layout.totalHeightForWidth(self.width() - 2 * GAP)
+        charts = bool(self._report.charts)
+        self._area.setMaximumHeight(max(_LEAST_PX, needed) if charts else _NO_LIMIT_PX)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit()
 
     def retranslate(self) -> None:
         if self._report is not None:

@@ -25,7 +25,8 @@ from ahrs_lab.ui.widgets import Card, Label, PrimaryButton
 
 LIVE_MS = 150
 """So long after the last change a live analysis is done again."""
-_LIST_PX, _FORM_PX = 216, 330
+_LIST_PX, _FORM_PX = (168, 216), (272, 330)
+"""Least and greatest widths; what is left is the outcome's."""
 
 
 class Workbench(Translated):
@@ -61,16 +62,17 @@ class Workbench(Translated):
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(CARD_MARGIN)
         self._list_card, self._form_card = Card(), Card()
-        self._list_card.setFixedWidth(_LIST_PX)
-        self._form_card.setFixedWidth(_FORM_PX)
+        for card, (least, most) in ((self._list_card, _LIST_PX), (self._form_card, _FORM_PX)):
+            card.setMinimumWidth(least)
+            card.setMaximumWidth(most)
         self._list_card.add(self.kinds, 1)
         self._stack = QStackedWidget()
         self._form_card.add(self._stack, 1)
         self._form_card.add(self._live_note)
         self._form_card.add(self.run)
-        row.addWidget(self._list_card)
-        row.addWidget(self._form_card)
-        row.addWidget(self.outcome, 1)
+        row.addWidget(self._list_card, 3)
+        row.addWidget(self._form_card, 5)
+        row.addWidget(self.outcome, 10)
 
     # content --------------------------------------------------------------------------------------------
 

@@ -12,7 +12,7 @@ from ahrs_lab.analysis.report import Table, cell_text
 _MINUS = "\N{MINUS SIGN}"
 _SIGN = re.compile(r"(?<![\w.)\]-])-(?=[\d.])")
 _POWER = re.compile(r"(?<![\w.])(\d+\.?\d*|\.\d+)[eE]([+-]?)0*(\d+)(?!\w)|(?<=\d\))[eE]([+-]?)0*(\d+)(?!\w)")
-_INDEX = re.compile(r"(?<![\w./\\-])([^\W\d_])_(\w{1,3})(?!\w|\.\w)")
+_INDEX = re.compile(r"(?<![A-Za-z0-9_./\\-])([^\W\d_]|∇)_(\w{1,3})(?!\w|\.\w)")
 _NUMBER = re.compile(r"[+\-−±≤≥<>~≈]?\s?(\d|\.\d)")
 _NOTHING = ("", "–", "—", "-", "−", "∞", "nan")
 

@@ -194,7 +194,8 @@ class LineChart:
     marks: tuple[tuple[float, Label], ...] = ()
     log_x: bool = False
     log_y: bool = False
-    height: float = 165.0
+    height: float = 138.0
+    """Points; three such charts with their headings fill a page."""
 
 
 Block = Fields | Table | Paragraph | Heading | Chart | LineChart

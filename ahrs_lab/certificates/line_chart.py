@@ -31,6 +31,7 @@ _ABOVE = 12.0
 _MARGIN_X, _MARGIN_Y = 0.01, 0.05
 _FINE = colour("#E4E8EE")
 """Lines of the grid without a number."""
+_BAND_ALPHA = 0.15
 _OWN_COLOURS = (ACCENT, colour("#CC79A7"), colour("#B87700"), colour("#3A9BD1"), INK)
 """Of curves that belong to no axis of the unit; the first is left out beside the axes' own blue."""
 _REFERENCE_DASH = (5.0, 1.5, 1.0, 1.5)
@@ -211,7 +212,6 @@ class LineChartBox:
             (x, max(low, floor) if math.isfinite(low) else low, high)
             for (x, _), low, high in zip(line.points, line.low, line.high, strict=True)
         ]
-        tint: Colour = (0.84 + 0.16 * ink[0], 0.84 + 0.16 * ink[1], 0.84 + 0.16 * ink[2])
         upper = [(x, high) for x, low, high in corners if math.isfinite(low) and math.isfinite(high)]
         lower = [(x, low) for x, low, high in corners if math.isfinite(low) and math.isfinite(high)]
         outline = [point for run in self._runs([*upper, *reversed(lower)], area) for point in run]
@@ -222,8 +222,9 @@ class LineChartBox:
         for point in outline[1:]:
             path.lineTo(*point)
         path.close()
-        pen.canvas.setFillColorRGB(*tint)
+        pen.canvas.setFillColorRGB(*ink, alpha=_BAND_ALPHA)  # the other curves' bands show through
         pen.canvas.drawPath(path, stroke=0, fill=1)
+        pen.canvas.setFillAlpha(1.0)
 
     def _marks(self, pen: Pen, area: tuple[float, float, float]) -> None:
         """Names beside their lines, one lower where two would meet."""

@@ -1461,7 +1461,7 @@
 <context>
     <name>KindList</name>
     <message>
-        <source>no recording</source>
+        <source>No recording</source>
         <translation>无需记录</translation>
     </message>
 </context>

@@ -19,6 +19,7 @@ from ahrs_lab.messages import Message
         ("φ_E, rad", "φ_{E}, rad"),
         ("(1.2 ± 0.3)e-05", "(1.2 ± 0.3)×10^{−5}"),
         ("Bf_xyz", "Bf_xyz"),
+        ("+0.76 ∇_x, −0.5 δv_E", "+0.76 ∇_{x}, −0.5 δv_{E}"),
         ("segments/zo_x_1.csv and a_1.csv of x_2.", "segments/zo_x_1.csv and a_1.csv of x_{2}."),
         ("mems-unit-1 of 2026-11-28", "mems-unit-1 of 2026-11-28"),
         ("a_longer_name", "a_longer_name"),

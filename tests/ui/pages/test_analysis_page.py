@@ -8,16 +8,19 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
+from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox, QScrollArea
 from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
 from ahrs_lab import messages
+from ahrs_lab.analysis.report import Chart, Curve, Report
 from ahrs_lab.laboratory.analyses import analyses
-from ahrs_lab.laboratory.analyses.kinds import AnalysisKind
+from ahrs_lab.laboratory.analyses.kinds import AnalysisKind, Outcome, Setting
+from ahrs_lab.messages import Message
 from ahrs_lab.ui.main_window import MainWindow
 from ahrs_lab.ui.pages.analysis.page import AnalysisPage
 from ahrs_lab.ui.pages.analysis.setting_fields import ChoiceSetting, FlagSetting, NumberSetting, TextSetting
@@ -114,9 +117,9 @@ def scene(desk: Desk, look: Look, qtbot: QtBot, laboratory: FakeLaboratory, chin
 def test_the_list_names_each_analysis_and_what_it_needs(scene: Scene) -> None:
     rows = scene.bench.kinds.rows
     assert [(row.text(), row.needs()) for row in rows.values()] == [
-        ("Means at rest", "recording at rest"),
-        ("Comparison", "reference, unit under test"),
-        ("Damped swing", "no recording"),
+        ("Means at rest", "Recording at rest"),
+        ("Comparison", "Reference, unit under test"),
+        ("Damped swing", "No recording"),
     ]
     assert rows["rest"].isChecked()
 
@@ -479,6 +482,41 @@ def test_both_themes_paint_the_chart(scene: Scene) -> None:
         corner[mode] = picture.pixelColor(picture.width() - 3, 3).lightness()
     assert corner["light"] > 200
     assert corner["dark"] < 60
+
+
+def test_long_names_and_many_charts_find_room(
+    desk: Desk, look: Look, qtbot: QtBot, laboratory: FakeLaboratory
+) -> None:
+    long = Message("a name that says at some length what is meant by it and (in brackets) what is not")
+    settings = tuple(
+        Setting(kind, long, kind, default, choices=(("a", long),))  # type: ignore[arg-type]
+        for kind, default in (("number", 1.0), ("choice", "a"), ("flag", True), ("text", ""), ("file", ""))
+    )
+    t_s = np.arange(3.0)
+    titles = [Message("Chart {n} of a rather long row", n=n) for n in range(6)]
+    charts = tuple(Chart(title, long, long, (Curve("X", t_s, t_s),)) for title in titles)
+    outcome = Outcome({}, Report(long, charts=charts))
+    kind = AnalysisKind("long", long, long, (long,), settings, lambda _b, _s: outcome)
+    scene = Scene(desk, look, qtbot, (kind,), laboratory.home)
+    scene.run()
+    report = scene.bench.outcome.report
+    assert not report.tabs.isVisibleTo(scene.page)
+    assert report.charts.combo.count() == 6
+    report.charts.combo.setCurrentIndex(4)
+    report.charts.combo.activated.emit(4)
+    assert report.tabs.currentIndex() == 4
+    look.settle()
+    assert clipped_texts(scene.page) == []
+    form = scene.bench.form
+    assert form is not None
+    area = form.findChild(QScrollArea)
+    assert area is not None
+    inside = area.widget()
+    assert inside is not None
+    assert inside.width() <= area.viewport().width()
+    scene.window.resize(2400, 900)
+    look.settle()
+    assert report.tabs.isVisibleTo(scene.page)
 
 
 def test_an_empty_house_says_what_will_be_here(

@@ -212,7 +212,7 @@ class ChartView(QWidget):
         if good.sum() < 2:
             return
         tint = QColor(look.colour)
-        tint.setAlphaF(0.26 if tokens().dark else 0.16)
+        tint.setAlphaF(0.2 if tokens().dark else 0.15)
         edges = [pg.PlotCurveItem(x=x[good], y=edge[good], pen=pg.mkPen(None)) for edge in (low, high)]
         for edge in edges:
             self._plot.addItem(edge)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxL
 
 from ahrs_lab.laboratory.analyses.kinds import AnalysisKind
 from ahrs_lab.ui.page import Translated
+from ahrs_lab.ui.pages.analysis.setting_values import titled
 from ahrs_lab.ui.pages.words import listed
 from ahrs_lab.ui.theme import RADIUS, STEP, font, tokens
 from ahrs_lab.ui.translation import said
@@ -115,4 +116,4 @@ class KindList(Translated):
     def retranslate(self) -> None:
         for kind in self._kinds:
             inputs = listed(said(label) for label in kind.inputs)
-            self.rows[kind.key].set_words(said(kind.name), inputs or self.tr("no recording"))
+            self.rows[kind.key].set_words(said(kind.name), titled(inputs) or self.tr("No recording"))

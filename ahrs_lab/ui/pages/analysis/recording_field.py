@@ -30,7 +30,7 @@ class RecordingField(Translated):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
-        self._name = Label(tone="muted")
+        self._name = Label(tone="muted", wrap=True)
         row = QHBoxLayout()
         row.setSpacing(STEP)
         self.field = ChoiceField()

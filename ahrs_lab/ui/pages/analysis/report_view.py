@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 from ahrs_lab.analysis.report import Report, Table
 from ahrs_lab.analysis.report_cells import number_columns, readable
 from ahrs_lab.ui.page import Translated
+from ahrs_lab.ui.pages.widgets.form import ChoiceField
 from ahrs_lab.ui.pages.widgets.icon_line import IconLine
 from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
 from ahrs_lab.ui.pages.widgets.tabs import Tabs
@@ -140,10 +141,12 @@ class ReportView(Translated):
         self._chart_column.setContentsMargins(0, 0, 0, 0)
         self._chart_column.setSpacing(GAP)
         self.tabs = Tabs()
-        self.tabs.setUsesScrollButtons(True)
         self.tabs.currentChanged.connect(lambda _place: self._draw())
+        self.charts = ChoiceField()
+        self.charts.edited.connect(lambda: self.tabs.setCurrentIndex(int(self.charts.key())))
         self._chart_title = ElidedLabel(role="strong")
         self._chart_column.addWidget(self.tabs)
+        self._chart_column.addWidget(self.charts)
         self._chart_column.addWidget(self._chart_title)
         self._split.addWidget(self._charts)
         self._area = QScrollArea()
@@ -177,13 +180,22 @@ class ReportView(Translated):
         self.tabs.set_texts(*(said(chart.title) for chart in report.charts))
         self.tabs.setCurrentIndex(max(0, min(front, self.tabs.count() - 1)))
         self.tabs.blockSignals(False)
-        several = len(report.charts) > 1
-        self.tabs.setVisible(several)
+        self.charts.set_choices([(str(i), said(chart.title)) for i, chart in enumerate(report.charts)])
+        self.charts.set_key(str(self.tabs.currentIndex()))
+        self._choose_switch()
         title = said(report.charts[0].title) if report.charts else ""
         self._chart_title.setText(title)
-        self._chart_title.setVisible(not several and title != said(report.title))
+        self._chart_title.setVisible(len(report.charts) == 1 and title != said(report.title))
+
+    def _choose_switch(self) -> None:
+        """Tabs where they fit side by side, else a list to choose from."""
+        needed = sum(self.tabs.tabSizeHint(place).width() for place in range(self.tabs.count()))
+        several, fit = self.tabs.count() > 1, needed <= self.width()
+        self.tabs.setVisible(several and fit)
+        self.charts.setVisible(several and not fit)
 
     def _draw(self) -> None:
+        self.charts.set_key(str(self.tabs.currentIndex()))
         if self._report is None or not self._report.charts:
             return
         if self.chart is None:
@@ -234,6 +246,7 @@ class ReportView(Translated):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
+        self._choose_switch()
         self._fit()
 
     def retranslate(self) -> None:

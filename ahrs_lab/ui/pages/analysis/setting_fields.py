@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from ahrs_lab.laboratory.analyses.kinds import Setting, Value
@@ -136,7 +136,10 @@ class ChoiceSetting(SettingField):
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
+        self._name = Label(tone="muted", wrap=True)
+        self.column.addWidget(self._name)
         self.field = ChoiceField()
+        self.field.show_name(False)
         self.field.edited.connect(self.edited)
         self.column.addWidget(self.field)
         self.column.addWidget(self._message)
@@ -144,6 +147,7 @@ class ChoiceSetting(SettingField):
         self.put(setting.default)
 
     def _fill(self) -> None:
+        self._name.setText(titled(said(self.setting.label)))
         self.field.set_name(titled(said(self.setting.label)))
         self.field.set_choices([(key, titled(said(text))) for key, text in self.setting.choices])
 
@@ -158,14 +162,29 @@ class ChoiceSetting(SettingField):
         super().retranslate()
 
 
+class _Caption(Label):
+    """Words that belong to a box beside them."""
+
+    pressed = Signal()
+
+    def mousePressEvent(self, _event: QMouseEvent) -> None:
+        self.pressed.emit()
+
+
 class FlagSetting(SettingField):
-    """A box to tick."""
+    """A box to tick, and its words, which may take several lines."""
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
         self.box = TickBox()
         self.box.clicked.connect(lambda _on: self.edited.emit())
-        self.column.addWidget(self.box)
+        self._name = _Caption(wrap=True)
+        self._name.pressed.connect(self.box.click)
+        row = QHBoxLayout()
+        row.setSpacing(GAP)
+        row.addWidget(self.box, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(self._name, 1)
+        self.column.addLayout(row)
         self.column.addWidget(self._message)
         self.put(setting.default)
 
@@ -176,7 +195,8 @@ class FlagSetting(SettingField):
         self.box.setChecked(bool(value))
 
     def retranslate(self) -> None:
-        self.box.setText(titled(said(self.setting.label)))
+        self._name.setText(titled(said(self.setting.label)))
+        self.box.setAccessibleName(titled(said(self.setting.label)))
         super().retranslate()
 
 
@@ -185,7 +205,7 @@ class TextSetting(SettingField):
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
-        self._name = Label(tone="muted")
+        self._name = Label(tone="muted", wrap=True)
         self.column.addWidget(self._name)
         self.field = TextField()
         self.field.show_name(False)

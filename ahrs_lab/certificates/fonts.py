@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
+from unicodedata import normalize
 
 from ahrs_lab.certificates.richtext import RichText
 from ahrs_lab.errors import InputError, MachineError
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
 REGULAR = "NotoSansSC"
 BOLD = "NotoSansSC-Bold"
 _FILES = {REGULAR: "fonts/NotoSansSC-Regular.ttf", BOLD: "fonts/NotoSansSC-Bold.ttf"}
+
+_NEAREST = {"\u0302": "^", "\u0303": "~", "\u0304": "¯", "\u0305": "¯", "∘": "○"}
+"""Of marks above a letter and of signs that the fonts lack."""
 
 # Drawn as an ordinary space of other width.
 _SPACES = " \N{NO-BREAK SPACE}\N{THIN SPACE}\N{NARROW NO-BREAK SPACE}"
@@ -87,10 +91,16 @@ def check_glyphs(texts: Iterable[tuple[str, RichText]]) -> None:
 
 
 def printable(rich: RichText) -> RichText:
-    """``rich`` with “?” for what the fonts cannot show: for texts that nobody signs."""
+    """``rich`` with the nearest that the fonts can show, a hat behind its letter, at last “?”: for texts that
+    nobody signs."""
     known = _characters(font_name(is_bold=False))
 
     def shown(character: str) -> str:
-        return character if character in _SPACES or ord(character) in known else "?"
+        if character in _SPACES or ord(character) in known:
+            return character
+        near = _NEAREST.get(character) or "".join(
+            _NEAREST.get(part, part) for part in normalize("NFKD", character)
+        )
+        return near if all(ord(part) in known for part in near) else "?"
 
     return tuple(replace(run, text="".join(map(shown, run.text))) for run in rich)

@@ -27,13 +27,13 @@ def outcome(points: int = 50) -> Outcome:
         Message("operator"),
         Message("t, s"),
         Message("ω, °/h"),
-        (Curve("φ_E", t_s, np.sin(t_s), axis="x"), Curve("a name with a missing letter ∘", t_s, t_s)),
+        (Curve("φ_E", t_s, np.sin(t_s), axis="x"), Curve("a name with a missing letter ǂ", t_s, t_s)),
         (Mark(5.0, "half"), Mark(float("nan"), "nowhere")),
     )
     table = Table(Message("operator"), ("", "value"), (("x", "-1.5e-07"), (Message("operator"), "2")))
     return Outcome(
         {"value": 1.0},
-        Report(Message("operator"), (table,), (chart,), (Message("a note"),), (Message("odd"),)),
+        Report(Message("operator"), (table,), (chart,), (Message("a note: Ĉ = E1 ∘ Dᵀ"),), (Message("odd"),)),
         {"t_s": t_s, "omega": t_s**2},
         {"set.txt": _save},
     )
@@ -57,7 +57,7 @@ def test_the_report_is_in_both_languages_with_its_numbers_set(tmp_path: Path) ->
         "−1.5×10",
         "unit-a",
         "half",
-        "a note",
+        "a note: C^ = E1 ○ D",
         "警告：odd",
         "missing letter ?",
     ):

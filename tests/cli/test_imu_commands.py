@@ -71,6 +71,7 @@ def test_people_read_tables_and_the_formula(tmp_path: Path, bundle: Path, capsys
     assert "set.h" in text
     assert {p.name for p in (tmp_path / "o").iterdir()} == {
         "result.json",
+        "plots.pdf",
         "calibration-set.json",
         "calibration-set.csv",
         "calibration_set.h",

@@ -77,4 +77,5 @@ KIND = AnalysisKind(
         ),
     ),
     run=_run,
+    live=True,
 )

@@ -90,7 +90,7 @@ def test_commands_and_options_that_are_named_exist(page: Path) -> None:
     known = commands()
     every = set().union(*known.values())
     for code in code_of(page):
-        match = re.search(r"\bahrs-lab ([a-z]+)(.*)", code)
+        match = re.search(r"\bahrs-lab ([a-z][a-z-]*)(.*)", code)
         if match:
             assert match[1] in known, code
             assert set(re.findall(r"--[a-z][a-z-]*", match[2])) <= known[match[1]], code

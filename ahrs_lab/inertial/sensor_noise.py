@@ -32,6 +32,9 @@ _HIGH_PASS_S: Final = 0.55
 _HIGH_PASS_VARIANCE: Final = 1.07
 """Of :class:`FastFlicker`, time constant and gain: so the sum with the interpolated grid is flattest."""
 _RUN_IN_S: Final = 8.0
+_SECTION_POLES: Final = 3
+"""More in one recursion would lose digits where they lie close to 1."""
+_CHUNK: Final = 16384
 _COVERED: Final = 0.002
 """Flicker below this share of the white noise's Allan variance is not seen in it."""
 
@@ -137,18 +140,16 @@ class FastFlicker:
         self._silent = not len(constants) or interval_s > 0.5 * GRID_S
         if self._silent:
             return
-        from scipy.signal import zpk2sos
-
         self._rng = np.random.Generator(np.random.SFC64(seed))
         decay, short = np.exp(-interval_s / constants), constants / interval_s
         means = 2.0 * short * (1.0 - short * (1.0 - decay))  # variance of means over an interval
         zeros, poles, gain = _sum_of_markov_processes(decay, means)
         high_pass = float(np.exp(-interval_s / _HIGH_PASS_S))
         size = np.sqrt(_VARIANCE * _HIGH_PASS_VARIANCE) * coefficients.bias_instability
-        self._sections = zpk2sos(
-            np.append(zeros, 1.0), np.append(poles, high_pass), gain * 0.5 * (1.0 + high_pass) * size
-        )
-        self._state = np.zeros((len(self._sections), 2))
+        self._size = float(gain * 0.5 * (1.0 + high_pass) * size)
+        zeros, poles = np.append(zeros, 1.0), np.append(poles, high_pass)
+        apart = -(-len(poles) // _SECTION_POLES)
+        self._sections = [_Section(zeros[i::apart], poles[i::apart]) for i in range(apart)]
         self._next(np.empty(round(_RUN_IN_S / interval_s)))
 
     def add_to(self, values: Array, scratch: Array) -> None:
@@ -157,10 +158,40 @@ class FastFlicker:
             values += self._next(scratch)
 
     def _next(self, scratch: Array) -> Array:
-        from scipy.signal import sosfilt
-
         self._rng.standard_normal(out=scratch)
-        made, self._state = sosfilt(self._sections, scratch, zi=self._state)
+        scratch *= self._size
+        for start in range(0, len(scratch), _CHUNK):
+            part = scratch[start : start + _CHUNK]
+            for section in self._sections:
+                part[:] = section(part)
+        return scratch
+
+
+class _Section:
+    """A recursive filter with a few ``poles`` that lie apart, and as many ``zeros`` or fewer, all real.
+
+    The recursion is the solution of a banded triangular system, which LAPACK does at the speed of a filter,
+    without the second that importing scipy.signal takes.
+    """
+
+    def __init__(self, zeros: Array, poles: Array) -> None:
+        self._ahead, self._back = np.poly(zeros), np.poly(poles)
+        self._band = np.asfortranarray(np.repeat(self._back[:, np.newaxis], _CHUNK, axis=1))
+        self._inputs, self._outputs = np.zeros(len(zeros)), np.zeros(len(poles))
+
+    def __call__(self, values: Array) -> Array:
+        """The next values, shape (n,), n ≤ the chunk."""
+        from scipy.linalg.lapack import dtbtrs
+
+        inputs = np.concatenate((self._inputs, values))
+        driven = np.convolve(inputs, self._ahead, "valid")
+        before = self._outputs[::-1]
+        for i in range(min(len(before), len(driven))):
+            driven[i] -= self._back[i + 1 :] @ before[: len(before) - i]
+        made, _ = dtbtrs(self._band[:, : len(driven)], driven, uplo="L", diag="U", overwrite_b=1)
+        outputs = np.concatenate((self._outputs, made))
+        self._inputs = inputs[len(inputs) - len(self._inputs) :]
+        self._outputs = outputs[len(outputs) - len(self._outputs) :]
         return np.asarray(made, dtype=np.float64)
 
 

@@ -34,7 +34,7 @@ _HIGH_PASS_VARIANCE: Final = 1.07
 _RUN_IN_S: Final = 8.0
 _SECTION_POLES: Final = 3
 """More in one recursion would lose digits where they lie close to 1."""
-_CHUNK: Final = 16384
+_CHUNK: Final = 4096
 _COVERED: Final = 0.002
 """Flicker below this share of the white noise's Allan variance is not seen in it."""
 
@@ -150,21 +150,30 @@ class FastFlicker:
         zeros, poles = np.append(zeros, 1.0), np.append(poles, high_pass)
         apart = -(-len(poles) // _SECTION_POLES)
         self._sections = [_Section(zeros[i::apart], poles[i::apart]) for i in range(apart)]
-        self._next(np.empty(round(_RUN_IN_S / interval_s)))
+        for _ in range(1 + round(_RUN_IN_S / interval_s) // _CHUNK):
+            self._made = self._next()
+        self._used = 0
 
-    def add_to(self, values: Array, scratch: Array) -> None:
-        """Add the next len(values) samples to ``values``; ``scratch`` has the same shape."""
-        if not self._silent and len(values):
-            values += self._next(scratch)
+    def add_to(self, values: Array) -> None:
+        """Add the next len(values) samples to ``values``."""
+        if self._silent:
+            return
+        start = 0
+        while start < len(values):
+            if self._used == _CHUNK:
+                self._made, self._used = self._next(), 0
+            taken = min(len(values) - start, _CHUNK - self._used)
+            values[start : start + taken] += self._made[self._used : self._used + taken]
+            start += taken
+            self._used += taken
 
-    def _next(self, scratch: Array) -> Array:
-        self._rng.standard_normal(out=scratch)
-        scratch *= self._size
-        for start in range(0, len(scratch), _CHUNK):
-            part = scratch[start : start + _CHUNK]
-            for section in self._sections:
-                part[:] = section(part)
-        return scratch
+    def _next(self) -> Array:
+        """A chunk; always a whole one, so that its sums do not depend on how many were asked for."""
+        made = self._rng.standard_normal(_CHUNK)
+        made *= self._size
+        for section in self._sections:
+            made = section(made)
+        return made
 
 
 class _Section:
@@ -180,18 +189,17 @@ class _Section:
         self._inputs, self._outputs = np.zeros(len(zeros)), np.zeros(len(poles))
 
     def __call__(self, values: Array) -> Array:
-        """The next values, shape (n,), n ≤ the chunk."""
+        """The next chunk."""
         from scipy.linalg.lapack import dtbtrs
 
         inputs = np.concatenate((self._inputs, values))
         driven = np.convolve(inputs, self._ahead, "valid")
         before = self._outputs[::-1]
-        for i in range(min(len(before), len(driven))):
+        for i in range(len(before)):
             driven[i] -= self._back[i + 1 :] @ before[: len(before) - i]
-        made, _ = dtbtrs(self._band[:, : len(driven)], driven, uplo="L", diag="U", overwrite_b=1)
-        outputs = np.concatenate((self._outputs, made))
-        self._inputs = inputs[len(inputs) - len(self._inputs) :]
-        self._outputs = outputs[len(outputs) - len(self._outputs) :]
+        made, _ = dtbtrs(self._band, driven, uplo="L", diag="U", overwrite_b=1)
+        self._inputs = values[_CHUNK - len(self._inputs) :].copy()
+        self._outputs = made[_CHUNK - len(self._outputs) :].copy()
         return np.asarray(made, dtype=np.float64)
 
 
@@ -243,7 +251,7 @@ class WhiteNoise:
             self._rng.standard_normal(out=scratch)
             np.multiply(scratch, self._deviation, out=scratch)
             np.add(values, scratch, out=values)
-        self._fast.add_to(values, scratch)
+        self._fast.add_to(values)
         if self._step and len(values):
             self._dither.random(out=scratch)
             scratch -= 0.5

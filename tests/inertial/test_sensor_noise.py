@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import scipy
 from numpy.typing import NDArray
 
+from ahrs_lab.inertial import sensor_noise
 from ahrs_lab.inertial.allan import overlapping_allan_deviation
 from ahrs_lab.inertial.sensor_noise import Interpolation, NoiseCoefficients, SlowDrift, WhiteNoise
 
@@ -95,3 +97,15 @@ def test_interpolation_is_numpys() -> None:
     nodes = np.random.default_rng(2).normal(size=between.last - between.first + 1)
     reference = np.interp(times, np.arange(between.first, between.last + 1), nodes)
     np.testing.assert_allclose(between(nodes, np.empty(500)), reference, atol=1e-14)
+
+
+@pytest.mark.parametrize("decays", [(0.99, 0.96, 0.9), (0.9995, 0.995, 0.95), (0.5,)])
+def test_a_recursive_section_is_scipys_filter(decays: tuple[float, ...]) -> None:
+    poles = np.array(decays)
+    zeros = 0.99 * poles[1:]
+    section = sensor_noise._Section(zeros, poles)
+    given = np.random.default_rng(5).standard_normal((3, sensor_noise._CHUNK))
+    sections = scipy.signal.zpk2sos(np.append(zeros, 0.0), poles, 1.0)
+    expected = scipy.signal.sosfilt(sections, given.ravel())
+    found = np.concatenate([section(chunk) for chunk in given])
+    assert found == pytest.approx(expected, abs=1e-9 * float(np.std(expected)))

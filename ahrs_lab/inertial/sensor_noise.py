@@ -32,8 +32,8 @@ _HIGH_PASS_S: Final = 0.55
 _HIGH_PASS_VARIANCE: Final = 1.07
 """Of :class:`FastFlicker`, time constant and gain: so the sum with the interpolated grid is flattest."""
 _RUN_IN_S: Final = 8.0
-_SECTION_POLES: Final = 3
-"""More in one recursion would lose digits where they lie close to 1."""
+_DISTINCT: Final = 1e-7
+"""Poles of one recursion: the product of one's distances from the others, below which digits are lost."""
 _CHUNK: Final = 4096
 _COVERED: Final = 0.002
 """Flicker below this share of the white noise's Allan variance is not seen in it."""
@@ -148,7 +148,7 @@ class FastFlicker:
         size = np.sqrt(_VARIANCE * _HIGH_PASS_VARIANCE) * coefficients.bias_instability
         self._size = float(gain * 0.5 * (1.0 + high_pass) * size)
         zeros, poles = np.append(zeros, 1.0), np.append(poles, high_pass)
-        apart = -(-len(poles) // _SECTION_POLES)
+        apart = next(n for n in range(1, len(poles) + 1) if all(_distinct(poles[i::n]) for i in range(n)))
         self._sections = [_Section(zeros[i::apart], poles[i::apart]) for i in range(apart)]
         for _ in range(1 + round(_RUN_IN_S / interval_s) // _CHUNK):
             self._made = self._next()
@@ -174,6 +174,12 @@ class FastFlicker:
         for section in self._sections:
             made = section(made)
         return made
+
+
+def _distinct(poles: Array) -> bool:
+    distances = np.abs(poles[:, np.newaxis] - poles)
+    np.fill_diagonal(distances, 1.0)
+    return bool(distances.prod(axis=1).min() > _DISTINCT)
 
 
 class _Section:

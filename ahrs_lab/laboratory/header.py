@@ -10,8 +10,6 @@ from ahrs_lab.metrology.figures_json import with_capability
 from ahrs_lab.procedures.plan import Plan, deviations, plan_to_toml
 from ahrs_lab.recording.segment import DeviceDescription, RecordingHeader
 
-PROCEDURE = "jjf1536-2015"
-
 
 def recording_header(
     bench: Bench,
@@ -25,7 +23,7 @@ def recording_header(
     are kept beside the plan, its deviations and the bench's figures (``capability``), which every later
     evaluation of the recording finds there."""
     return RecordingHeader(
-        procedure=PROCEDURE,
+        procedure=plan.procedure,
         site=bench.site,
         device=device or bench.ahrs.description,
         notes=with_capability(

@@ -17,7 +17,7 @@ from ahrs_lab.instruments.by_hand import HandRequest, Setter
 from ahrs_lab.instruments.interfaces import Bench, Operator
 from ahrs_lab.laboratory.bundles import counting, open_bundle, sound
 from ahrs_lab.messages import Message
-from ahrs_lab.procedures import jjf1536
+from ahrs_lab.procedures import course
 from ahrs_lab.procedures.commands import Procedure, Step
 from ahrs_lab.procedures.events import Event, RunState, StateChanged
 from ahrs_lab.procedures.plan import Plan
@@ -140,7 +140,7 @@ class LiveRun:
         self._runner: Runner | None = None
         self._state: RunState = "idle"
         self.outcome: RunOutcome | None = None
-        self.steps: tuple[Step, ...] = jjf1536.steps(plan, bench.table.limits)
+        self.steps: tuple[Step, ...] = course.steps(plan, bench.table.limits)
         self.recorded_before: tuple[Segment, ...] = ()
         """What counted in the folder when the run began or went on; its steps take no time."""
 
@@ -160,7 +160,7 @@ class LiveRun:
 
         def rest(writer: BundleWriter) -> _Work:
             done = sound(writer)
-            return jjf1536.calibration(self.plan, done, limits), jjf1536.steps(self.plan, limits, done)
+            return course.calibration(self.plan, done, limits), course.steps(self.plan, limits, done)
 
         self._launch(rest)
 
@@ -170,9 +170,9 @@ class LiveRun:
         limits = self._bench.table.limits
 
         def again(_writer: BundleWriter) -> _Work:
-            procedure = jjf1536.from_segment(self.plan, segment_name, limits, reason)
-            names = jjf1536.segment_names(self.plan)
-            return procedure, jjf1536.steps(self.plan, limits, frozenset(names[: names.index(segment_name)]))
+            procedure = course.from_segment(self.plan, segment_name, limits, reason)
+            names = course.segment_names(self.plan)
+            return procedure, course.steps(self.plan, limits, frozenset(names[: names.index(segment_name)]))
 
         self._launch(again)
 
@@ -186,9 +186,9 @@ class LiveRun:
                 raise InputError(
                     "{segment} is not recorded yet: there is nothing to repeat.", segment=segment_name
                 )
-            others = frozenset(jjf1536.segment_names(self.plan)) - {segment_name}
-            steps = tuple(step for step in jjf1536.steps(self.plan, limits, others) if step.estimate_s > 0.0)
-            return jjf1536.repeat(self.plan, segment_name, limits, reason), steps
+            others = frozenset(course.segment_names(self.plan)) - {segment_name}
+            steps = tuple(step for step in course.steps(self.plan, limits, others) if step.estimate_s > 0.0)
+            return course.repeat(self.plan, segment_name, limits, reason), steps
 
         self._launch(again)
 

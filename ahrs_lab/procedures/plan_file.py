@@ -13,10 +13,12 @@ from typing import Any, Literal, cast, get_args, get_origin, get_type_hints
 from ahrs_lab.errors import InputError, MachineError
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.plan_rules import check_plan
-from ahrs_lab.procedures.plan_settings import STANDARD_DURATION_S, Plan
+from ahrs_lab.procedures.plan_settings import STANDARD_DURATION_S, Plan, ProcedureName
 from ahrs_lab.recording.toml_table import parse_toml
 
 _LARGEST_FILE = 1_000_000
+_FOREIGN: Mapping[ProcedureName, tuple[str, ...]] = {"jjf1536-2015": ("procedure",)}
+"""Settings that mean nothing to a procedure."""
 
 
 def plan_from_text(text: str, source: str) -> Plan:
@@ -82,9 +84,14 @@ def plan_from_toml(data: Mapping[str, Any]) -> Plan:
 
 
 def plan_to_toml(plan: Plan) -> dict[str, Any]:
-    """Every setting, as TOML (and JSON) can hold it; ``plan_from_toml`` gives the same plan back."""
+    """Every setting of the plan's procedure, as TOML (and JSON) can hold it; ``plan_from_toml`` gives it
+    back.
+
+    JJF 1536 is not named, being what a plan without a name is: a recording that was begun before there was a
+    choice is gone on with.
+    """
     plain: dict[str, Any] = _plain(asdict(plan))
-    return plain
+    return {key: value for key, value in plain.items() if key not in _FOREIGN[plan.procedure]}
 
 
 def _plain(value: Any) -> Any:

@@ -7,6 +7,7 @@ from typing import Literal
 
 from ahrs_lab.recording.orientation import AXES, Axis
 
+ProcedureName = Literal["jjf1536-2015"]
 ItemName = Literal["scale_factor", "zero_offset", "misalignment"]
 RateOrder = Literal["pairs", "ascending", "as_listed"]
 Schedule = Literal["standard", "combined", "multi-position"]
@@ -90,6 +91,7 @@ class Plan:
     misalignment: MisalignmentPlan = field(default_factory=MisalignmentPlan)
     settling: SettlingPlan = field(default_factory=SettlingPlan)
     power: PowerPlan = field(default_factory=PowerPlan)
+    procedure: ProcedureName = "jjf1536-2015"
 
 
 STANDARD_DURATION_S: dict[Schedule, float] = {

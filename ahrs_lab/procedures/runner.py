@@ -21,7 +21,7 @@ from ahrs_lab.errors import AbortedError, AhrsLabError, InstrumentError
 from ahrs_lab.instruments.by_hand import Setter
 from ahrs_lab.instruments.interfaces import Bench, RoomReading, SupplyReading, TableState
 from ahrs_lab.messages import Message
-from ahrs_lab.procedures import jjf1536
+from ahrs_lab.procedures import course
 from ahrs_lab.procedures.azimuth_check import AzimuthCheck
 from ahrs_lab.procedures.commands import Command, Procedure, Record, SettleRate, Step
 from ahrs_lab.procedures.events import (
@@ -209,7 +209,7 @@ class Runner:
             check_plan(self._plan, bench.table.limits, sample_rate_hz=bench.ahrs.description.sample_rate_hz)
             if steps is None:
                 done = frozenset(segment.name for segment in kept if not segment.superseded)
-                steps = jjf1536.steps(self._plan, bench.table.limits, done)
+                steps = course.steps(self._plan, bench.table.limits, done)
         self._remaining = Remaining(steps or ())
         self._room.add_earlier(kept)
         cycles = [segment.extra.get("power_cycle", 0) for segment in self._writer.segments]

@@ -1,67 +1,20 @@
-"""What is recorded of JJF 1536 7.1–7.3 within one mounting: segments, their commands, how long they take.
-
-A *take* is one segment and the commands that make it; a *block* is a line of the operator's list: the takes
-that belong together and what has to be done before and after them.
-"""
+"""What is recorded of JJF 1536 7.1–7.3 within one mounting: segments, their commands, how long they take."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from ahrs_lab.instruments.interfaces import TableLimits
-from ahrs_lab.procedures.commands import (
-    Command,
-    PointTo,
-    Record,
-    RecordTurns,
-    SettleRate,
-    Spin,
-    Step,
-    Stop,
-)
+from ahrs_lab.procedures.blocks import Block, Take, point_to, travel_s, turns_take
+from ahrs_lab.procedures.commands import PointTo, Record, SettleRate, Spin, Step, Stop
 from ahrs_lab.procedures.plan_settings import Plan
 from ahrs_lab.procedures.schedule import Mounting, Work
 from ahrs_lab.recording.segment import Segment
 
-CAUTIOUS_TABLE = TableLimits(max_rate_dps=math.inf, max_acceleration_dps2=10.0)
-"""What is assumed of a table that nobody has described: it needs its time to accelerate."""
-
 _BAND_EDGES_DPS = (1.0, 10.0)
 _BAND_ANGLES_DEG = (1.0, 10.0, 360.0)
-
-
-@dataclass(frozen=True)
-class Take:
-    """One segment, the commands that record it, and their bench time."""
-
-    segment: Segment
-    commands: tuple[Command, ...]
-    estimate_s: float
-
-
-@dataclass(frozen=True)
-class Block:
-    """Takes under one :class:`Step`. ``azimuth_deg``: where the table points meanwhile, None where it turns.
-    ``repeat`` counts the power-ons of a mounting that repeats need."""
-
-    step: Step
-    takes: tuple[Take, ...]
-    before: tuple[Command, ...] = ()
-    after: tuple[Command, ...] = ()
-    azimuth_deg: float | None = 0.0
-    repeat: int = 1
-    check: bool = True
-
-    def without(self, done: frozenset[str]) -> Block:
-        """This block with only what is left to record; its step's estimate follows."""
-        left = tuple(take for take in self.takes if take.segment.name not in done)
-        if len(left) == len(self.takes):
-            return self
-        gone = sum(take.estimate_s for take in self.takes) - sum(take.estimate_s for take in left)
-        estimate = self.step.estimate_s - gone if left else 0.0
-        return replace(self, takes=left, step=replace(self.step, estimate_s=max(estimate, 0.0)))
 
 
 def averaging_angle_deg(rate_dps: float) -> float:
@@ -77,14 +30,6 @@ def dwell_duration_s(rate_dps: float, least_s: float) -> float:
     angle = averaging_angle_deg(rate_dps)
     whole = math.ceil(least_s * abs(rate_dps) / angle - 1e-9)
     return max(whole, 1) * angle / abs(rate_dps)
-
-
-def travel_s(angle_deg: float, rate_dps: float, limits: TableLimits) -> float:
-    """From rest to rest through ``angle_deg`` with at most ``rate_dps`` and the table's acceleration."""
-    angle, acceleration = abs(angle_deg), limits.max_acceleration_dps2
-    if angle <= rate_dps**2 / acceleration:
-        return 2.0 * math.sqrt(angle / acceleration)
-    return angle / rate_dps + rate_dps / acceleration
 
 
 def in_order(plan: Plan) -> tuple[float, ...]:
@@ -188,9 +133,6 @@ class _Maker:
     def turns(self) -> Block:
         """7.3: n turns forward, n back, from rest to rest, both recorded for the same time."""
         plan, axis = self.plan.misalignment, self.work.axis
-        lead = max(self.plan.settling.hold_s, 1.0)
-        motion = travel_s(360.0 * plan.turns, plan.rate_dps, self.limits)
-        duration = math.ceil(2.0 * lead + 1.02 * motion + 2.0)
         takes = []
         for sense, sign in (("pos", 1), ("neg", -1)):
             segment = self._segment(
@@ -200,8 +142,7 @@ class _Maker:
                 rate_dps=sign * plan.rate_dps,
                 turns=sign * plan.turns,
             )
-            record = RecordTurns(segment, sign * plan.turns, plan.rate_dps, lead, float(duration))
-            takes.append(Take(segment, (record,), duration))
+            takes.append(turns_take(segment, self.plan.settling, self.limits))
         estimate = sum(take.estimate_s for take in takes) + self._settling_s()
         step = self._step(f"ma_{axis}", "turns", estimate, f"±{plan.turns}")
         return Block(step, tuple(takes), before=(self._point(0.0),), repeat=self.work.repeat)
@@ -229,16 +170,3 @@ class _Maker:
 
     def _settling_s(self) -> float:
         return self.plan.settling.hold_s + self.plan.mounting_check_s
-
-
-def point_to(plan: Plan, azimuth_deg: float, limits: TableLimits) -> PointTo:
-    """Turn the table there; it may be half a turn away."""
-    settling = plan.settling
-    travel = travel_s(180.0, settling.pointing_rate_dps, limits)
-    return PointTo(
-        azimuth_deg,
-        settling.pointing_rate_dps,
-        settling.position_tolerance_deg,
-        settling.hold_s,
-        settling.timeout_s + 1.5 * travel,
-    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ahrs_lab.procedures import jjf1536
+from ahrs_lab.procedures import course
 from ahrs_lab.procedures.commands import Procedure
 from ahrs_lab.procedures.events import Event
 from ahrs_lab.procedures.plan import Plan, PowerPlan, ScaleFactorPlan, SettlingPlan, ZeroOffsetPlan
@@ -48,7 +48,7 @@ class Run:
 
     def go(self, procedure: Procedure | None = None) -> RunOutcome:
         done = frozenset(self.writer.finished)
-        outcome = self.runner.run(procedure or jjf1536.calibration(self.plan, done, self.fake.table.limits))
+        outcome = self.runner.run(procedure or course.calibration(self.plan, done, self.fake.table.limits))
         if outcome.cause is not None and self.expect_no_fault_of_ours:
             raise outcome.cause
         return outcome

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.instruments.interfaces import TableLimits
-from ahrs_lab.procedures import jjf1536
+from ahrs_lab.procedures import course
+from ahrs_lab.procedures.blocks import travel_s
 from ahrs_lab.procedures.commands import (
     CheckMounting,
     Command,
@@ -30,7 +31,7 @@ from ahrs_lab.procedures.commands import (
     Stop,
 )
 from ahrs_lab.procedures.plan import Plan, PowerPlan, ScaleFactorPlan, ZeroOffsetPlan
-from ahrs_lab.procedures.takes import averaging_angle_deg, dwell_duration_s, travel_s
+from ahrs_lab.procedures.takes import averaging_angle_deg, dwell_duration_s
 
 LIMITS = TableLimits(400.0, 100.0)
 
@@ -44,7 +45,7 @@ def names(items: Sequence[Command | Step]) -> list[str]:
 
 
 def calibration(plan: Plan, done: frozenset[str] = frozenset()) -> list[Command | Step]:
-    return list(jjf1536.calibration(plan, done, LIMITS))
+    return list(course.calibration(plan, done, LIMITS))
 
 
 def test_a_mounting_goes_from_power_through_rest_rates_and_turns_to_the_positions() -> None:
@@ -108,7 +109,7 @@ def test_a_dwell_is_the_shortest_that_will_do(rate: float, least: float) -> None
 
 def test_both_senses_of_the_turns_last_equally_long_and_long_enough_for_the_table() -> None:
     for limits in (LIMITS, TableLimits(400.0, 5.0)):
-        turns = [c for c in jjf1536.calibration(Plan(), limits=limits) if isinstance(c, RecordTurns)]
+        turns = [c for c in course.calibration(Plan(), limits=limits) if isinstance(c, RecordTurns)]
         assert [c.turns for c in turns] == [10, -10] * 3
         assert len({c.duration_s for c in turns}) == 1
         motion = 3600.0 / 100.0 + 100.0 / limits.max_acceleration_dps2
@@ -120,10 +121,10 @@ def test_a_motion_too_short_for_its_rate_never_reaches_it() -> None:
     assert travel_s(90.0, 10.0, TableLimits(1e4, 10.0)) == pytest.approx(10.0)
 
 
-@given(st.sets(st.sampled_from(jjf1536.segment_names(Plan()))))
+@given(st.sets(st.sampled_from(course.segment_names(Plan()))))
 def test_a_resumed_calibration_records_what_is_left_and_mounts_for_nothing_else(done: set[str]) -> None:
     items = calibration(Plan(), frozenset(done))
-    left = [name for name in jjf1536.segment_names(Plan()) if name not in done]
+    left = [name for name in course.segment_names(Plan()) if name not in done]
     assert names(items) == left
     by_mounting: dict[str, list[str]] = {}
     for item in calibration(Plan()):
@@ -132,10 +133,10 @@ def test_a_resumed_calibration_records_what_is_left_and_mounts_for_nothing_else(
     needed = [mounting for mounting, inside in by_mounting.items() if set(inside) - done]
     assert [c.orientation.letters for c in items if isinstance(c, Mount)] == needed
     # whatever was skipped, the list of steps is the whole one
-    assert [i.key for i in items if isinstance(i, Step)] == [s.key for s in jjf1536.steps(Plan(), LIMITS)]
+    assert [i.key for i in items if isinstance(i, Step)] == [s.key for s in course.steps(Plan(), LIMITS)]
 
 
-@given(st.sets(st.sampled_from(jjf1536.segment_names(Plan()))))
+@given(st.sets(st.sampled_from(course.segment_names(Plan()))))
 def test_power_is_on_whenever_something_is_recorded_and_off_at_each_mounting(done: set[str]) -> None:
     powered = spinning = False
     for command in commands(calibration(Plan(), frozenset(done))):
@@ -172,9 +173,9 @@ PLANS = [
 @pytest.mark.parametrize("plan", PLANS, ids=range(len(PLANS)))
 def test_the_list_of_steps_is_what_the_procedure_goes_through(plan: Plan) -> None:
     yielded = [item for item in calibration(plan) if isinstance(item, Step)]
-    assert yielded == list(jjf1536.steps(plan, LIMITS))
+    assert yielded == list(course.steps(plan, LIMITS))
     assert len({step.key for step in yielded}) == len(yielded)
-    segments = jjf1536.segment_names(plan)
+    segments = course.segment_names(plan)
     assert len(set(segments)) == len(segments)
     mountings = [step.mounting for step in yielded if step.kind == "mount"]
     groups = [step.mounting for step in yielded]
@@ -184,45 +185,45 @@ def test_the_list_of_steps_is_what_the_procedure_goes_through(plan: Plan) -> Non
 
 def test_names_of_segments_tell_item_axis_position_and_repeat() -> None:
     assert {"sf_x_before", "sf_z_09", "sf_y_after", "ma_x_pos", "ma_z_neg", "zo_y_4"} <= set(
-        jjf1536.segment_names(Plan())
+        course.segment_names(Plan())
     )
-    repeated = jjf1536.segment_names(Plan(repeats=2))
+    repeated = course.segment_names(Plan(repeats=2))
     assert {"zo_x_1", "zo_x_1_r2", "ma_y_neg_r2"} <= set(repeated)
     assert not any(name.startswith("sf") and name.endswith("r2") for name in repeated)
-    assert "zo_x_12" in jjf1536.segment_names(Plan(zero_offset=ZeroOffsetPlan("multi-position")))
+    assert "zo_x_12" in course.segment_names(Plan(zero_offset=ZeroOffsetPlan("multi-position")))
 
 
 def test_the_bench_time_of_the_whole_standard_calibration_is_six_and_a_half_hours() -> None:
     # 12 positions of 30 min are 6 h; rates, turns, warm-up and six mountings are the rest
-    hours = sum(step.estimate_s for step in jjf1536.steps(Plan(), LIMITS)) / 3600.0
+    hours = sum(step.estimate_s for step in course.steps(Plan(), LIMITS)) / 3600.0
     assert 6.3 < hours < 7.3
 
 
 def test_done_steps_take_no_time() -> None:
-    everything = frozenset(jjf1536.segment_names(Plan()))
-    assert sum(step.estimate_s for step in jjf1536.steps(Plan(), LIMITS, everything)) == 0.0
+    everything = frozenset(course.segment_names(Plan()))
+    assert sum(step.estimate_s for step in course.steps(Plan(), LIMITS, everything)) == 0.0
 
 
 @pytest.mark.parametrize("name", ["sf_y_before", "sf_y_04", "ma_z_neg", "zo_x_2"])
 def test_one_segment_is_repeated_with_all_that_belongs_to_it(name: str) -> None:
-    items = list(jjf1536.repeat(Plan(), name, LIMITS, reason="noise"))
+    items = list(course.repeat(Plan(), name, LIMITS, reason="noise"))
     assert names(items) == [name]
     recorded = next(c for c in items if isinstance(c, Record | RecordTurns))
     assert recorded.segment.reason == "noise"
     kinds = [type(c) for c in commands(items)]
     assert kinds[:7] == [Stop, PointTo, PowerOff, Mount, PowerOn, SettleCurrent, CheckMounting]
     assert kinds[-2:] == [PointTo, PowerOff]
-    keys = {step.key for step in jjf1536.steps(Plan(), LIMITS)}
+    keys = {step.key for step in course.steps(Plan(), LIMITS)}
     assert {item.key for item in items if isinstance(item, Step)} <= keys
 
 
 def test_a_run_from_a_segment_on_takes_the_rest_in_order() -> None:
-    everything = jjf1536.segment_names(Plan())
-    assert tuple(names(list(jjf1536.from_segment(Plan(), everything[20], LIMITS)))) == everything[20:]
+    everything = course.segment_names(Plan())
+    assert tuple(names(list(course.from_segment(Plan(), everything[20], LIMITS)))) == everything[20:]
 
 
 def test_a_segment_that_the_plan_does_not_have_is_refused_at_once() -> None:
-    for call in (jjf1536.repeat, jjf1536.from_segment):
+    for call in (course.repeat, course.from_segment):
         with pytest.raises(InputError, match="no segment zo_q_1: choose one"):
             call(Plan(), "zo_q_1")
 

@@ -13,7 +13,7 @@ import pytest
 from ahrs_lab.errors import InputError, InstrumentError, MountingError
 from ahrs_lab.instruments.interfaces import Bench
 from ahrs_lab.messages import Message
-from ahrs_lab.procedures import jjf1536
+from ahrs_lab.procedures import course
 from ahrs_lab.procedures.events import Event, SegmentFinished, SegmentStarted
 from ahrs_lab.procedures.plan import Plan, load_plan
 from ahrs_lab.procedures.reduction import reduce_recording
@@ -49,7 +49,7 @@ def run(
     with BundleWriter.resume(folder) if there else BundleWriter(folder, header) as writer:
         done = frozenset(s.name for s in writer.segments if not s.interrupted and not s.superseded)
         runner = Runner(bench, writer, lambda event: act(event, runner), lambda samples: None, plan)
-        outcome = runner.run(jjf1536.calibration(plan, done, bench.table.limits))
+        outcome = runner.run(course.calibration(plan, done, bench.table.limits))
     if outcome.cause is not None:
         raise outcome.cause
     return outcome
@@ -141,7 +141,7 @@ def test_a_fault_of_the_bench_ends_safely_and_the_run_goes_on_once_it_is_mended(
     kept = outcome.segments
     again = run(tmp_path / "run", bench)
     assert again.state == "done", again.message
-    assert (*kept, *again.segments) == jjf1536.segment_names(QUICK)
+    assert (*kept, *again.segments) == course.segment_names(QUICK)
     assert not [
         f for f in read_bundle(tmp_path / "run").findings if f.severity == "unusable" and not f.segment
     ]
@@ -152,7 +152,7 @@ def test_a_wrong_mounting_once_costs_one_more_mounting_and_no_data(tmp_path: Pat
     world_of(bench).faults.trigger("wrong_mounting", once=True)
     outcome = run(tmp_path / "run", bench)
     assert outcome.state == "done"
-    assert outcome.segments == jjf1536.segment_names(QUICK)
+    assert outcome.segments == course.segment_names(QUICK)
 
 
 def test_dropouts_are_counted_and_told(tmp_path: Path) -> None:
@@ -207,7 +207,7 @@ def test_a_run_killed_in_any_segment_leaves_the_same_set_when_it_is_resumed(
     assert outcome.state == "done"
     recorded = [r.segment for r in read_bundle(tmp_path / "run").segments]
     counted = [s.name for s in recorded if not s.interrupted and not s.superseded]
-    assert counted == list(jjf1536.segment_names(QUICK))
+    assert counted == list(course.segment_names(QUICK))
     assert len(outcome.segments) == len(counted) - kept
 
 
@@ -216,7 +216,7 @@ def test_a_repeated_segment_is_kept_twice_and_the_last_one_counts(tmp_path: Path
     bench = build_bench(demonstration())
     with BundleWriter.resume(tmp_path / "run") as writer:
         runner = Runner(bench, writer, lambda event: None, lambda samples: None, QUICK)
-        outcome = runner.run(jjf1536.repeat(QUICK, "zo_x_3", bench.table.limits, reason="a door"))
+        outcome = runner.run(course.repeat(QUICK, "zo_x_3", bench.table.limits, reason="a door"))
     assert outcome.segments == ("zo_x_3",)
     takes = [r.segment for r in read_bundle(tmp_path / "run").segments if r.segment.name == "zo_x_3"]
     assert [(take.superseded, take.file) for take in takes] == [

@@ -9,7 +9,7 @@ import pytest
 
 from ahrs_lab.errors import AbortedError, MachineError
 from ahrs_lab.messages import Message
-from ahrs_lab.procedures import jjf1536
+from ahrs_lab.procedures import course
 from ahrs_lab.procedures.events import (
     BenchReading,
     Event,
@@ -36,7 +36,7 @@ def test_a_whole_calibration_records_every_segment_in_six_mountings() -> None:
     run = Run(WHOLE)
     outcome = run.go()
     assert outcome.state == "done"
-    assert outcome.segments == jjf1536.segment_names(WHOLE)
+    assert outcome.segments == course.segment_names(WHOLE)
     assert len(outcome.segments) == 3 * (7 + 2 + 2 + 4)
     assert len(run.fake.operator.asked) == 6
     assert outcome.warnings == ()
@@ -163,7 +163,7 @@ def test_news_come_in_order_and_steps_match_the_list() -> None:
     run = Run(SMALL)
     run.go()
     assert [e.step for e in run.events if isinstance(e, StepStarted)] == list(
-        jjf1536.steps(SMALL, run.fake.table.limits)
+        course.steps(SMALL, run.fake.table.limits)
     )
     assert len(run.told(StepFinished)) == len(run.told(StepStarted))
     assert not any(e.skipped for e in run.events if isinstance(e, StepFinished))
@@ -180,7 +180,7 @@ def test_readings_tell_the_time_left() -> None:
     run.go()
     readings = [e for e in run.events if isinstance(e, BenchReading)]
     assert readings
-    total = sum(step.estimate_s for step in jjf1536.steps(SMALL, run.fake.table.limits))
+    total = sum(step.estimate_s for step in course.steps(SMALL, run.fake.table.limits))
     assert 0.0 < readings[0].remaining_s <= total
 
 
@@ -238,17 +238,17 @@ def test_a_run_that_is_resumed_records_the_rest_and_nothing_twice(kept: int) -> 
     first.go()
     writer = first.writer
     assert len(writer.finished) == kept
-    left = [name for name in jjf1536.segment_names(SMALL) if name not in writer.finished]
+    left = [name for name in course.segment_names(SMALL) if name not in writer.finished]
     again = Run(SMALL, writer=writer)
     outcome = again.go()
     assert outcome.state == "done"
     assert list(outcome.segments) == left
-    assert sorted(writer.finished) == sorted(jjf1536.segment_names(SMALL))
+    assert sorted(writer.finished) == sorted(course.segment_names(SMALL))
     # asked for those mountings only that something is left of
     needed = list(dict.fromkeys(s.extra["mounting"] for s in writer.segments if s.name in left))
     assert again.fake.operator.asked == [o for o in Run(SMALL).mountings() if o in needed]
     finished = [event for event in again.events if isinstance(event, StepFinished)]
-    assert [event.step.key for event in finished] == [step.key for step in jjf1536.steps(SMALL)]
+    assert [event.step.key for event in finished] == [step.key for step in course.steps(SMALL)]
     assert all(event.skipped == (event.step.estimate_s == 0.0) for event in finished)
 
 
@@ -281,7 +281,7 @@ def test_a_repeated_segment_keeps_both_takes_with_the_reason() -> None:
     run = Run(SMALL)
     run.go()
     again = Run(SMALL, writer=run.writer)
-    outcome = again.go(jjf1536.repeat(SMALL, "sf_x_03", again.fake.table.limits, reason="door slammed"))
+    outcome = again.go(course.repeat(SMALL, "sf_x_03", again.fake.table.limits, reason="door slammed"))
     assert outcome.segments == ("sf_x_03",)
     assert again.fake.operator.asked == ["UEN"]
     takes = [s for s in run.writer.segments if s.name == "sf_x_03"]
@@ -294,8 +294,8 @@ def test_everything_from_a_segment_on_is_recorded_again() -> None:
     run = Run(SMALL)
     run.go()
     again = Run(SMALL, writer=run.writer)
-    names = jjf1536.segment_names(SMALL)
-    outcome = again.go(jjf1536.from_segment(SMALL, names[-3], again.fake.table.limits))
+    names = course.segment_names(SMALL)
+    outcome = again.go(course.from_segment(SMALL, names[-3], again.fake.table.limits))
     assert outcome.segments == names[-3:]
 
 
@@ -317,7 +317,7 @@ def test_a_pause_while_the_table_turns_waits_for_the_recording_and_stops_the_tab
     run.on_event = hear
     outcome = run.go()
     assert outcome.state == "done"
-    assert outcome.segments == jjf1536.segment_names(SMALL)
+    assert outcome.segments == course.segment_names(SMALL)
     [(moving, power, finished)] = seen
     assert not moving
     assert power
@@ -383,7 +383,7 @@ def test_every_place_can_be_paused_at_and_nothing_is_lost() -> None:
     run.runner.pause()
     run.fake.operator.on_mount = run.runner.pause
     outcome = run.go()
-    assert outcome.segments == jjf1536.segment_names(SMALL)
+    assert outcome.segments == course.segment_names(SMALL)
 
 
 # the end ────────────────────────────────────────────────────────────────────────────────────────────────────
@@ -450,7 +450,7 @@ def test_a_full_disk_ends_the_run_with_its_message_and_a_safe_bench() -> None:
     run.on_event = fill
     outcome = run.go()
     assert (outcome.state, str(outcome.message)) == ("failed", "The disk is full.")
-    assert outcome.segments == jjf1536.segment_names(SMALL)[: len(outcome.segments)]
+    assert outcome.segments == course.segment_names(SMALL)[: len(outcome.segments)]
     assert is_safe(run.fake)
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from ahrs_lab.errors import InstrumentError, MountingError
 from ahrs_lab.messages import Message
-from ahrs_lab.procedures import jjf1536
+from ahrs_lab.procedures import course
 from ahrs_lab.procedures.commands import Procedure, Step
 from ahrs_lab.procedures.events import Event, MountingChecked, SegmentFinished, SegmentStarted, Warned
 from ahrs_lab.procedures.runner import RunOutcome
@@ -278,7 +278,7 @@ def test_a_case_that_shakes_is_looked_at_again_until_it_is_still() -> None:
 
 def indices() -> list[int]:
     """Every command of the small plan."""
-    commands = [c for c in jjf1536.calibration(SMALL) if not isinstance(c, Step)]
+    commands = [c for c in course.calibration(SMALL) if not isinstance(c, Step)]
     return list(range(len(commands)))
 
 
@@ -301,11 +301,11 @@ def test_an_abort_before_any_command_leaves_a_safe_bench(index: int) -> None:
                 left -= 1
             outcome = yield item
 
-    outcome = run.go(count(jjf1536.calibration(SMALL, limits=run.fake.table.limits)))
+    outcome = run.go(count(course.calibration(SMALL, limits=run.fake.table.limits)))
     assert outcome.state == "aborted"
     assert is_safe(run.fake)
     assert run.writer.finished == list(outcome.segments)
-    assert outcome.segments == jjf1536.segment_names(SMALL)[: len(outcome.segments)]
+    assert outcome.segments == course.segment_names(SMALL)[: len(outcome.segments)]
 
 
 @pytest.mark.parametrize("wait", range(0, 200, 3))
@@ -479,7 +479,7 @@ def test_a_run_goes_on_after_its_trouble_is_over() -> None:
     run.fake.table.fault = ""
     again = Run(SMALL, run.fake, run.writer)
     assert again.go().state == "done"
-    assert sorted(run.writer.finished) == sorted(jjf1536.segment_names(SMALL))
+    assert sorted(run.writer.finished) == sorted(course.segment_names(SMALL))
     assert [s.name for s in run.writer.segments if s.interrupted] == ["ma_x_neg"]
 
 

@@ -64,9 +64,9 @@ def preview(draft: JobDraft, standards: Iterable[StandardRow], people: Iterable[
 
 def estimate(plan: Plan, limits: TableLimits) -> Estimate:
     """From the procedure's own steps."""
-    from ahrs_lab.procedures import jjf1536
+    from ahrs_lab.procedures import course
 
-    steps = jjf1536.steps(plan, limits)
+    steps = course.steps(plan, limits)
     return Estimate(sum(step.estimate_s for step in steps), sum(1 for step in steps if step.kind == "mount"))
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping
+from collections.abc import Set as AbstractSet
 from pathlib import Path
 from typing import Any
 
@@ -57,7 +58,7 @@ from ahrs_lab.metrology.conditions import Standard, clause6_violations
 from ahrs_lab.metrology.conformity import assess
 from ahrs_lab.metrology.figures_json import noted_capability, stated_figures
 from ahrs_lab.metrology.recorded_days import is_recorded_on, recorded_days
-from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, CalibrationResult, Environment, Uncertainty
+from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, CalibrationResult, Environment, Reported, Uncertainty
 from ahrs_lab.metrology.rounding import format_grouped
 from ahrs_lab.resource_files import resource_path
 
@@ -103,7 +104,7 @@ def certificate_content(
     return Document(
         frame=document_frame(result, job, language, wording.TITLE),
         front=front_fields(result, job, language),
-        signatures=_signatures(job, language),
+        signatures=signature_boxes(job, language),
         pages=(
             (
                 *standards_blocks(job.standards, writer),
@@ -136,21 +137,29 @@ def _check_repeatability(result: CalibrationResult, job: JobSheet) -> None:
     )
 
 
-def seal_of(result: CalibrationResult, job: JobSheet) -> Path | None:
+def seal_of(result: Reported, job: JobSheet) -> Path | None:
     """The laboratory's seal; a demonstration has one of its own, a real certificate never carries that."""
     if job.seal is None and is_demonstration(result, job):
         return resource_path("seal/demo-seal.png")
     return job.seal
 
 
-def is_demonstration(result: CalibrationResult, job: JobSheet) -> bool:
+def is_demonstration(result: Reported, job: JobSheet) -> bool:
     """Whether the document has to say that it is no valid certificate."""
     return job.demonstration or result.simulated
 
 
 def mismatches_of(result: CalibrationResult, job: JobSheet) -> tuple[Message, ...]:
+    """:func:`found_mismatches` of a result by JJF 1536."""
+    return found_mismatches(result, job, methods_of(result))
+
+
+def found_mismatches(
+    result: Reported, job: JobSheet, methods: AbstractSet[str] = frozenset()
+) -> tuple[Message, ...]:
     """Where result and job sheet are not of the same device, day, method or figures of the standards; the
-    facts alone, as a certificate remarks on them."""
+    facts alone, as a certificate remarks on them. ``methods``: by which the uncertainties were evaluated,
+    where there is a choice."""
     found: list[Message] = []
     serial = str(result.device.get("serial_number", "")).strip()
     if serial and serial != job.device.serial_number:
@@ -170,8 +179,7 @@ def mismatches_of(result: CalibrationResult, job: JobSheet) -> tuple[Message, ..
                 calibrated=job.calibrated.isoformat(),
             )
         )
-    methods = methods_of(result)
-    if methods != {job.uncertainty_method}:
+    if methods and methods != {job.uncertainty_method}:
         found.append(
             Message(
                 "The job asks for uncertainty by {wanted}, the result was evaluated by {found}.",
@@ -198,7 +206,7 @@ def party_name(party: Party, language: CertificateLanguage) -> Label:
 
 
 def document_frame(
-    result: CalibrationResult, job: JobSheet, language: CertificateLanguage, title: Words
+    result: Reported, job: JobSheet, language: CertificateLanguage, title: Words
 ) -> DocumentFrame:
     """Header, footer, banner and what the file says of itself."""
     in_english = language == "en"
@@ -221,9 +229,9 @@ def document_frame(
 
 
 def front_fields(
-    result: CalibrationResult, job: JobSheet, language: CertificateLanguage
+    result: Reported, job: JobSheet, language: CertificateLanguage, procedure: Label | None = None
 ) -> tuple[Block, ...]:
-    """Clause 8 e), f), g), i) and k)'s date."""
+    """Clause 8 e), f), g), i) and k)'s date; ``procedure`` in place of the job's."""
 
     def line(words: Words, value: Label) -> Field:
         return Field(label(words, language), value)
@@ -257,7 +265,7 @@ def front_fields(
         ),
         Fields(
             (
-                line(wording.PROCEDURE, both(job.procedure, job.procedure_en, language)),
+                line(wording.PROCEDURE, procedure or both(job.procedure, job.procedure_en, language)),
                 line(wording.PLACE, both(job.place, job.place_en, language) if job.place else same(DASH)),
                 line(wording.ENVIRONMENT, environment_text(result.environment, language)),
             )
@@ -291,7 +299,8 @@ def person_label(person: Person, language: CertificateLanguage) -> tuple[Label, 
     return both(person.name, person.name_en, language), both(person.position, person.position_en, language)
 
 
-def _signatures(job: JobSheet, language: CertificateLanguage) -> tuple[SignatureBox, ...]:
+def signature_boxes(job: JobSheet, language: CertificateLanguage) -> tuple[SignatureBox, ...]:
+    """The three who sign."""
     return (
         SignatureBox("operator", label(wording.OPERATOR, language), *person_label(job.operator, language)),
         SignatureBox("verifier", label(wording.VERIFIER, language), *person_label(job.verifier, language)),
@@ -402,7 +411,7 @@ def _methods(
     ]
     blocks.append(Heading(label(wording.DEVIATIONS, language)))
     deviations = [spoken(message, language) for message in result.deviations]
-    deviations += [spoken(message, language) for message in _violations(result, job)]
+    deviations += [spoken(message, language) for message in violations_of(result, job)]
     deviations += [same(text) for text in job.accepted_violations]
     blocks += [Paragraph(text, together=True) for text in deviations] or [
         Paragraph(label(wording.NO_DEVIATIONS, language), together=True)
@@ -416,14 +425,14 @@ def _methods(
     ]
     remarks = [spoken(message, language) for message in mismatches]
     remarks += [same(note) for note in job.notes]
-    remarks += _warnings(result, language)
+    remarks += warning_remarks(result, language)
     if remarks:
         blocks.append(Heading(label(wording.REMARKS, language)))
         blocks += [Paragraph(text, together=True) for text in remarks]
     return tuple(blocks)
 
 
-def _violations(result: CalibrationResult, job: JobSheet) -> tuple[Message, ...]:
+def violations_of(result: Reported, job: JobSheet) -> tuple[Message, ...]:
     """What violates clause 6 and was not accepted (that stands with its reason); the room as measured."""
     found = clause6_violations(
         job.standards,
@@ -444,7 +453,7 @@ def _with_mark(text: Label, mark: str) -> Label:
     return Label(joined(text.main, (Run(mark, "sup"),)), text.second)
 
 
-def _warnings(result: CalibrationResult, language: CertificateLanguage) -> list[Label]:
+def warning_remarks(result: Reported, language: CertificateLanguage) -> list[Label]:
     """Each kind of warning once, with its first segment; how often, and at most a dozen."""
     counted: dict[str, tuple[Label, int]] = {}
     for warning in result.warnings:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.diagnosis.model import Diagnosis
@@ -195,6 +195,31 @@ class Environment:
     temperature_spread_c: float
     humidity_percent: float
     humidity_spread_percent: float
+
+
+class Reported(Protocol):
+    """What the result of every procedure says beside its quantities; see :class:`CalibrationResult`."""
+
+    @property
+    def procedure(self) -> str: ...
+    @property
+    def bundle_sha256(self) -> str: ...
+    @property
+    def software(self) -> str: ...
+    @property
+    def warnings(self) -> tuple[ResultWarning, ...]: ...
+    @property
+    def deviations(self) -> tuple[Message, ...]: ...
+    @property
+    def environment(self) -> Environment | None: ...
+    @property
+    def device(self) -> Mapping[str, Any]: ...
+    @property
+    def site(self) -> Mapping[str, Any]: ...
+    @property
+    def notes(self) -> Mapping[str, Any]: ...
+    @property
+    def simulated(self) -> bool: ...
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from ahrs_lab.metrology.result import (
     CalibrationResult,
     Environment,
     MisalignmentResult,
+    Reported,
     ResultWarning,
     ScaleFactorResult,
     ZeroOffsetResult,
@@ -36,12 +37,29 @@ _SCHEDULES = ("standard", "combined", "multi-position")
 def to_json(result: CalibrationResult) -> dict[str, Any]:
     """A dict of what JSON knows, full precision; ValueError for a number that is not finite."""
     data = {
-        "procedure": result.procedure,
-        "bundle_sha256": result.bundle_sha256,
-        "software": result.software,
+        **head_json(result),
         "scale_factor": {axis: _scale_factor(found) for axis, found in result.scale_factor.items()},
         "zero_offset": {axis: _zero_offset(found) for axis, found in result.zero_offset.items()},
         "misalignment": {key: _misalignment(found) for key, found in result.misalignment.items()},
+        **reported_json(result),
+        "diagnosis": None if result.diagnosis is None else diagnosis_json(result.diagnosis),
+    }
+    json.dumps(data, allow_nan=False)
+    return data
+
+
+def head_json(result: Reported) -> dict[str, Any]:
+    """What a result begins with."""
+    return {
+        "procedure": result.procedure,
+        "bundle_sha256": result.bundle_sha256,
+        "software": result.software,
+    }
+
+
+def reported_json(result: Reported) -> dict[str, Any]:
+    """What a result of any procedure says beside its quantities."""
+    return {
         "warnings": [
             {
                 "segment": warning.segment,
@@ -59,10 +77,23 @@ def to_json(result: CalibrationResult) -> dict[str, Any]:
         "site": _plain(result.site),
         "notes": _plain(result.notes),
         "simulated": result.simulated,
-        "diagnosis": None if result.diagnosis is None else diagnosis_json(result.diagnosis),
     }
-    json.dumps(data, allow_nan=False)
-    return data
+
+
+def read_reported(reader: JsonReader) -> dict[str, Any]:
+    """The inverse of :func:`head_json` and :func:`reported_json`, by the names of the fields."""
+    return {
+        "procedure": reader.text("procedure"),
+        "bundle_sha256": reader.text("bundle_sha256"),
+        "software": reader.text("software"),
+        "warnings": tuple(_read_warning(entry) for entry in reader.objects("warnings")),
+        "deviations": tuple(_read_sentence(entry) for entry in reader.objects("deviations")),
+        "environment": _read_environment(reader),
+        "device": dict(reader.object("device").data) if reader.has("device") else {},
+        "site": dict(reader.object("site").data) if reader.has("site") else {},
+        "notes": dict(reader.object("notes").data) if reader.has("notes") else {},
+        "simulated": reader.data.get("simulated") is True,
+    }
 
 
 def to_json_text(result: CalibrationResult) -> str:
@@ -82,9 +113,7 @@ def from_json(data: object) -> CalibrationResult:
     """The inverse of :func:`to_json`; raises InputError that names the key at fault."""
     reader = JsonReader(data)
     return CalibrationResult(
-        procedure=reader.text("procedure"),
-        bundle_sha256=reader.text("bundle_sha256"),
-        software=reader.text("software"),
+        **read_reported(reader),
         scale_factor={
             cast(AxisName, axis): _read_scale_factor(cast(AxisName, axis), member)
             for axis, member in reader.members("scale_factor", _AXES).items()
@@ -97,13 +126,6 @@ def from_json(data: object) -> CalibrationResult:
             key: _read_misalignment(key, member)
             for key, member in reader.members("misalignment", MISALIGNMENT_KEYS).items()
         },
-        warnings=tuple(_read_warning(entry) for entry in reader.objects("warnings")),
-        deviations=tuple(_read_sentence(entry) for entry in reader.objects("deviations")),
-        environment=_read_environment(reader),
-        device=dict(reader.object("device").data) if reader.has("device") else {},
-        site=dict(reader.object("site").data) if reader.has("site") else {},
-        notes=dict(reader.object("notes").data) if reader.has("notes") else {},
-        simulated=reader.data.get("simulated") is True,
         diagnosis=(
             read_diagnosis(reader.object("diagnosis"), MISALIGNMENT_KEYS) if reader.has("diagnosis") else None
         ),

@@ -13,16 +13,22 @@ from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.figures_json import noted_capability, with_capability
-from ahrs_lab.metrology.json_reader import message_from_json
 from ahrs_lab.metrology.result import (
     CalibrationResult,
-    Environment,
     Method,
     ResultWarning,
     ScaleFactorResult,
 )
 from ahrs_lab.metrology.uncertainty.full_model import MonteCarloSettings
 from ahrs_lab.metrology.uncertainty.monte_carlo import check_trials
+from ahrs_lab.procedures.recorded_facts import (
+    device_facts,
+    noted_deviations,
+    noted_environment,
+    run_warnings,
+    set_aside,
+    site_facts,
+)
 from ahrs_lab.procedures.reduction_diagnosis import diagnose
 from ahrs_lab.procedures.reduction_evidence import Evidence, RateSource, unknown_resolution
 from ahrs_lab.procedures.reduction_misalignment import reduce_misalignments
@@ -32,7 +38,6 @@ from ahrs_lab.procedures.reduction_validation import not_validated
 from ahrs_lab.procedures.reduction_zero_offset import reduce_zero_offsets
 from ahrs_lab.recording.orientation import AXES, Axis
 from ahrs_lab.recording.read import Recording
-from ahrs_lab.recording.segment import RecordingHeader
 
 
 def reduce_recording(
@@ -87,7 +92,7 @@ def _reduce(
         monte_carlo=monte_carlo,
         with_repeatability=with_repeatability,
     )
-    warnings: list[ResultWarning] = [*selection.warnings, *_run_warnings(recording)]
+    warnings: list[ResultWarning] = [*selection.warnings, *run_warnings(recording)]
     scale_factors: dict[Axis, ScaleFactorResult] = {}
     for axis in AXES:
         scale_factor, said = reduce_scale_factor(evidence, axis)
@@ -111,39 +116,14 @@ def _reduce(
         zero_offset=zero_offsets,
         misalignment=misalignments,
         warnings=tuple(warnings),
-        deviations=_deviations(header.notes),
-        environment=_environment(header.notes),
-        device=_device(header),
-        site=_site(header),
-        notes=with_capability({**header.notes, **_set_aside(recording)}, capability),
+        deviations=noted_deviations(header.notes),
+        environment=noted_environment(header.notes),
+        device=device_facts(header),
+        site=site_facts(header),
+        notes=with_capability({**header.notes, **set_aside(recording)}, capability),
         simulated=header.notes.get("simulated") is True,
         diagnosis=diagnosis,
     )
-
-
-def _run_warnings(recording: Recording) -> list[ResultWarning]:
-    """What the runs warned of while they recorded: the room, the azimuth, lost samples; each once."""
-    noted = recording.header.notes.get("run_warnings")
-    files = {r.segment.name: r.segment.file for r in recording.segments if r.counts}
-    found: list[ResultWarning] = []
-    for entry in noted if isinstance(noted, list) else []:
-        if not isinstance(entry, Mapping) or "what" not in entry:
-            continue
-        name = str(entry.get("segment", ""))
-        warning = ResultWarning(message_from_json(entry["what"], "run_warnings"), files.get(name, name))
-        if warning not in found:
-            found.append(warning)
-    return found
-
-
-def _set_aside(recording: Recording) -> dict[str, Any]:
-    """The takes that do not count, each with its reason, for the original record."""
-    takes = [
-        {"segment": segment.file, "reason": segment.reason}
-        for segment in (recorded.segment for recorded in recording.segments)
-        if segment.superseded or segment.interrupted
-    ]
-    return {"repeated": takes} if takes else {}
 
 
 def _check_finite(result: CalibrationResult) -> None:
@@ -185,53 +165,3 @@ def _schedule(notes: Mapping[str, Any]) -> str:
     zero_offset = plan.get("zero_offset") if isinstance(plan, Mapping) else None
     schedule = zero_offset.get("schedule") if isinstance(zero_offset, Mapping) else None
     return schedule if isinstance(schedule, str) else "standard"
-
-
-def _deviations(notes: Mapping[str, Any]) -> tuple[Message, ...]:
-    listed = notes.get("deviations", [])
-    if not isinstance(listed, list):
-        raise InputError(
-            "recording.toml: [notes] deviations has to be a list of sentences: correct or remove it."
-        )
-    return tuple(message_from_json(entry, f"deviations[{index}]") for index, entry in enumerate(listed))
-
-
-def _environment(notes: Mapping[str, Any]) -> Environment | None:
-    table = notes.get("environment")
-    if table is None:
-        return None
-    keys = ("temperature_c", "temperature_spread_c", "humidity_percent", "humidity_spread_percent")
-    values = [table.get(key) if isinstance(table, Mapping) else None for key in keys]
-    numbers = [
-        float(value)
-        for value in values
-        if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    ]
-    if len(numbers) < len(keys):
-        raise InputError(
-            "recording.toml: [notes] environment has to hold the numbers {keys}: correct or remove it.",
-            keys=", ".join(keys),
-        )
-    return Environment(*numbers)
-
-
-def _device(header: RecordingHeader) -> dict[str, Any]:
-    device = header.device
-    return {
-        "name": device.name,
-        "manufacturer": device.manufacturer,
-        "model": device.model,
-        "serial_number": device.serial_number,
-        "rate_unit": device.rate_unit,
-        "accel_unit": device.accel_unit,
-        "sample_rate_hz": device.sample_rate_hz,
-    }
-
-
-def _site(header: RecordingHeader) -> dict[str, Any]:
-    site = header.site
-    return {
-        "latitude_deg": site.latitude_deg,
-        "longitude_deg": site.longitude_deg,
-        "altitude_m": site.altitude_m,
-    }

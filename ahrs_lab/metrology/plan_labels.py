@@ -12,6 +12,7 @@ _RATES = Message("Scale factor")
 _OFFSET = Message("Zero offset")
 _TURNS = Message("Misalignment")
 _STEADY = Message("Steady table")
+_IMU = Message("IMU")
 
 
 def _of(group: Message, what: Message, unit: str = "") -> Message:
@@ -42,6 +43,12 @@ PLAN_LABELS: Mapping[str, Message] = MappingProxyType(
         "zero_offset.positions": _of(_OFFSET, Message("positions (multi-position method)")),
         "misalignment.rate_dps": _of(_TURNS, Message("rate"), "(°/s)"),
         "misalignment.turns": _of(_TURNS, Message("turns in each sense")),
+        "procedure": Message("Procedure"),
+        "imu.rate_dps": _of(_IMU, Message("rate of the turns"), "(°/s)"),
+        "imu.turns": _of(_IMU, Message("turns in each sense")),
+        "imu.scheme": _of(_IMU, Message("scheme of positions")),
+        "imu.positions": _of(_IMU, Message("positions of the own scheme")),
+        "imu.dwell_s": _of(_IMU, Message("time at each position"), "s"),
         "settling.rate_tolerance_relative": _of(_STEADY, Message("relative tolerance of the rate")),
         "settling.rate_tolerance_dps": _of(_STEADY, Message("tolerance of the rate"), "(°/s)"),
         "settling.position_tolerance_deg": _of(_STEADY, Message("tolerance of the position"), "°"),
@@ -73,6 +80,9 @@ PLAN_VALUES: Mapping[str, Message] = MappingProxyType(
         "as_listed": Message("as listed"),
         "combined": Message("combined"),
         "multi-position": Message("multi-position"),
+        "jjf1536-2015": Message("JJF 1536-2015"),
+        "imu-discrete": Message("discrete IMU calibration"),
+        "own": Message("own list"),
     }
 )
 """Values of settings that are words."""

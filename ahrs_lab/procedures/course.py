@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from ahrs_lab.errors import InputError, MountingError
 from ahrs_lab.instruments.interfaces import TableLimits
-from ahrs_lab.procedures import jjf1536
+from ahrs_lab.procedures import imu_discrete, jjf1536
 from ahrs_lab.procedures.blocks import CAUTIOUS_TABLE, Block, Session, point_to, travel_s
 from ahrs_lab.procedures.commands import (
     CheckMounting,
@@ -44,6 +44,7 @@ _Commands = Generator[Command | Step, object, None]
 
 _PLANNERS: Mapping[ProcedureName, Callable[[Plan, TableLimits], tuple[Session, ...]]] = {
     "jjf1536-2015": jjf1536.sessions,
+    "imu-discrete": imu_discrete.sessions,
 }
 """What each procedure records, mounting by mounting."""
 
@@ -249,6 +250,8 @@ class _Course:
         """Check; where the case stands otherwise have it mounted again, at most three times in all."""
         for attempt in range(1, MOUNTING_ATTEMPTS + 1):
             finding = yield from self._look(asked)
+            if finding is not None:
+                self._sure_of_what_it_gives(finding)
             if finding is None or finding.accepted:
                 return
             if attempt == MOUNTING_ATTEMPTS:
@@ -263,6 +266,14 @@ class _Course:
             yield from self._power_on()
             if azimuth_deg:
                 yield point_to(self._plan, azimuth_deg, self._limits)
+
+    def _sure_of_what_it_gives(self, finding: MountingFinding) -> None:
+        if self._plan.procedure == "imu-discrete" and finding.by != "accelerometer":
+            raise InputError(
+                "The device gives no accelerations, which a calibration of an inertial measurement unit "
+                "needs: have it send accel_x, accel_y, accel_z, or choose JJF 1536-2015 for a unit of gyros "
+                "alone."
+            )
 
     def _look(self, asked: Orientation) -> Generator[Command | Step, object, MountingFinding | None]:
         """None where whoever drives this procedure only wants to see its commands."""

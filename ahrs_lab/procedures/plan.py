@@ -10,11 +10,14 @@ The settings are in :mod:`~ahrs_lab.procedures.plan_settings`, their file form i
 from ahrs_lab.procedures.plan_file import load_plan, plan_from_text, plan_from_toml, plan_to_toml, save_plan
 from ahrs_lab.procedures.plan_rules import check_plan, default_rates, deviations
 from ahrs_lab.procedures.plan_settings import (
+    ImuPlan,
     ItemName,
     MisalignmentPlan,
     MountingOrder,
     Plan,
+    PositionScheme,
     PowerPlan,
+    ProcedureName,
     RateOrder,
     ScaleFactorPlan,
     Schedule,
@@ -23,11 +26,14 @@ from ahrs_lab.procedures.plan_settings import (
 )
 
 __all__ = [
+    "ImuPlan",
     "ItemName",
     "MisalignmentPlan",
     "MountingOrder",
     "Plan",
+    "PositionScheme",
     "PowerPlan",
+    "ProcedureName",
     "RateOrder",
     "ScaleFactorPlan",
     "Schedule",

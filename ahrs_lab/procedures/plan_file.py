@@ -13,11 +13,14 @@ from typing import Any, Literal, cast, get_args, get_origin, get_type_hints
 from ahrs_lab.errors import InputError, MachineError
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.plan_rules import check_plan
-from ahrs_lab.procedures.plan_settings import STANDARD_DURATION_S, Plan, ProcedureName
+from ahrs_lab.procedures.plan_settings import IMU_NAME, STANDARD_DURATION_S, Plan, ProcedureName
 from ahrs_lab.recording.toml_table import parse_toml
 
 _LARGEST_FILE = 1_000_000
-_FOREIGN: Mapping[ProcedureName, tuple[str, ...]] = {"jjf1536-2015": ("procedure",)}
+_FOREIGN: Mapping[ProcedureName, tuple[str, ...]] = {
+    "jjf1536-2015": ("procedure", "imu"),
+    "imu-discrete": ("items", "axes", "scale_factor", "zero_offset", "misalignment"),
+}
 """Settings that mean nothing to a procedure."""
 
 
@@ -78,9 +81,27 @@ def plan_from_toml(data: Mapping[str, Any]) -> Plan:
         if schedule == "multi-position":
             filled = {**zero_offset, "duration_s": STANDARD_DURATION_S["multi-position"]}
             data = {**data, "zero_offset": filled}
+    if data.get("procedure") == "imu-discrete":
+        data = _filled_for_an_imu(data)
     plan = cast(Plan, _table(Plan, data, ""))
     check_plan(plan)
     return plan
+
+
+def _filled_for_an_imu(data: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Where the plan leaves it out: power stays on, as the set is of one power-on, whose constant drift the
+    positions of all mountings share."""
+    for key in _FOREIGN["imu-discrete"]:
+        if key in data:
+            raise InputError(
+                "{setting} means nothing to the procedure {procedure}: remove it.",
+                setting=key,
+                procedure="imu-discrete",
+            )
+    power = data.get("power", {})
+    if isinstance(power, Mapping):
+        power = {"off_between_mountings": False, **power}
+    return {"name": IMU_NAME, **data, "power": power}
 
 
 def plan_to_toml(plan: Plan) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """What a plan may not be, and what it may be only by leaving the standard.
 
-A *refusal* (:func:`check_plan`) is a plan that JJF 1536-2015 does not know how to evaluate or that the bench
+A *refusal* (:func:`check_plan`) is a plan that its procedure does not know how to evaluate or that the bench
 cannot run. A *deviation* (:func:`deviations`) can be run and evaluated; it is kept with the result and
 printed.
 """
@@ -15,6 +15,7 @@ from ahrs_lab.instruments.interfaces import TableLimits
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.plan_labels import PLAN_LABELS
 from ahrs_lab.procedures.figures import figure
+from ahrs_lab.procedures.imu_rules import check_imu, imu_remarks
 from ahrs_lab.procedures.plan_settings import (
     STANDARD_DURATION_S,
     MisalignmentPlan,
@@ -45,8 +46,19 @@ def check_plan(
     ``limits`` of the table, ``device_range_dps`` (±) and ``sample_rate_hz`` of the unit are checked where
     given.
     """
-    _check_choice_lists(plan)
     _check_numbers(plan)
+    if plan.procedure == "imu-discrete":
+        check_imu(plan)
+    else:
+        _check_jjf1536(plan, sample_rate_hz)
+    if limits is not None:
+        _check_table(plan, limits)
+    if device_range_dps is not None:
+        _check_device(plan, device_range_dps)
+
+
+def _check_jjf1536(plan: Plan, sample_rate_hz: float | None) -> None:
+    _check_choice_lists(plan)
     if "scale_factor" in plan.items:
         _check_rates(plan.scale_factor.rates_dps)
         _at_least("scale_factor.dwell_s", plan.scale_factor.dwell_s, LEAST_DWELL_S)
@@ -56,10 +68,6 @@ def check_plan(
         _check_positions(plan)
     if "misalignment" in plan.items:
         _check_turns(plan.misalignment)
-    if limits is not None:
-        _check_table(plan, limits)
-    if device_range_dps is not None:
-        _check_device(plan, device_range_dps)
     if sample_rate_hz is not None and sample_rate_hz < LEAST_SAMPLE_RATE_HZ:
         raise InputError(
             "The device gives {rate_hz} samples per second; zero offset and misalignment need at least "
@@ -201,6 +209,8 @@ def _check_turns(plan: MisalignmentPlan) -> None:
 
 def _rates_in_use(plan: Plan) -> list[tuple[str, float]]:
     used: list[tuple[str, float]] = []
+    if plan.procedure == "imu-discrete":
+        return [("imu.rate_dps", plan.imu.rate_dps)]
     if "scale_factor" in plan.items:
         used += [("scale_factor.rates_dps", rate) for rate in plan.scale_factor.rates_dps]
     if "misalignment" in plan.items:
@@ -234,8 +244,13 @@ def _check_device(plan: Plan, range_dps: float) -> None:
 
 
 def deviations(plan: Plan, device_range_dps: float | None = None) -> tuple[Message, ...]:
-    """Each setting that leaves JJF 1536-2015 and can be run, as a sentence for record and certificate."""
+    """Each setting that leaves the plan's procedure and can be run, as a sentence for record and
+    certificate."""
     found: list[Message] = []
+    if plan.procedure == "imu-discrete":
+        found += imu_remarks(plan)
+        found += _settling(plan.settling, plan.mounting_tolerance_deg, plan.power)
+        return tuple(found)
     found += _scope(plan)
     found += _settling(plan.settling, plan.mounting_tolerance_deg, plan.power)
     if "scale_factor" in plan.items:

@@ -1,4 +1,4 @@
-"""The settings of a calibration, with the standard's values as default."""
+"""The settings of a calibration, with the standard's or the textbook's values as default."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from typing import Literal
 
 from ahrs_lab.recording.orientation import AXES, Axis
 
-ProcedureName = Literal["jjf1536-2015"]
+ProcedureName = Literal["jjf1536-2015", "imu-discrete"]
 ItemName = Literal["scale_factor", "zero_offset", "misalignment"]
 RateOrder = Literal["pairs", "ascending", "as_listed"]
 Schedule = Literal["standard", "combined", "multi-position"]
 MountingOrder = Literal["shortest", "standard"]
+PositionScheme = Literal["6", "8", "12", "16", "20", "24", "own"]
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,22 @@ class MisalignmentPlan:
 
     rate_dps: float = 100.0
     turns: int = 10
+
+
+@dataclass(frozen=True)
+class ImuPlan:
+    """Discrete calibration of an inertial measurement unit (textbook 2.6.3): whole turns forward and back
+    about x, y, z, and positions at rest."""
+
+    rate_dps: float = 100.0
+    turns: int = 10
+    scheme: PositionScheme = "12"
+    """By :data:`ahrs_lab.metrology.imu_calibration.SCHEMES`, or ``own``: those of ``positions``."""
+    positions: tuple[str, ...] = ()
+    """Where x, y, z of the case point (``UEN``), and where wished how far the table is turned on from there
+    (``UEN@30``: 30°, anticlockwise seen from above)."""
+    dwell_s: float = 300.0
+    """At each position."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +101,7 @@ class Plan:
     mounting_tolerance_deg: float = 3.0
     mounting_check_s: float = 2.0
     repeats: int = 1
-    """How often each zero-offset position and each pair of turns is recorded; where power is off between
+    """How often each position and each pair of turns is recorded; where power is off between
     mountings, each repeat is a power-on of its own, so that it tells the turn-on repeatability."""
     scale_factor: ScaleFactorPlan = field(default_factory=ScaleFactorPlan)
     zero_offset: ZeroOffsetPlan = field(default_factory=ZeroOffsetPlan)
@@ -92,7 +109,11 @@ class Plan:
     settling: SettlingPlan = field(default_factory=SettlingPlan)
     power: PowerPlan = field(default_factory=PowerPlan)
     procedure: ProcedureName = "jjf1536-2015"
+    imu: ImuPlan = field(default_factory=ImuPlan)
 
+
+IMU_NAME = "IMU, discrete calibration"
+"""What a plan of that procedure is called that has no name of its own."""
 
 STANDARD_DURATION_S: dict[Schedule, float] = {
     "standard": 1800.0,

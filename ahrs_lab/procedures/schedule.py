@@ -15,7 +15,7 @@ import numpy as np
 from ahrs_lab.procedures.plan_settings import Plan
 from ahrs_lab.recording.orientation import AXES, Axis, Orientation
 
-Kind = Literal["scale_factor", "misalignment", "position"]
+Kind = Literal["scale_factor", "misalignment", "rotation", "position"]
 
 _TABLE_2 = ("ENU", "ESD", "WSU", "WND")
 """Where (X, Y, Z), for Y (Y, Z, X), for Z (Z, X, Y) point in positions 1 to 4."""
@@ -62,7 +62,11 @@ def four_positions(axis: Axis) -> tuple[Orientation, ...]:
 
 def plan_mountings(plan: Plan) -> tuple[Mounting, ...]:
     """The mountings of ``plan`` in the order it asks for, each with its work."""
-    work = _rotations(plan) + _positions(plan)
+    return arranged(plan, _rotations(plan) + _positions(plan))
+
+
+def arranged(plan: Plan, work: list[Work]) -> tuple[Mounting, ...]:
+    """``work`` by mountings, in the order that ``plan`` asks for, with its repeats."""
     arrange = _in_the_order_of_the_standard if plan.mounting_order == "standard" else _shortest
     return tuple(_with_repeats(mounting, plan.repeats) for mounting in arrange(work))
 

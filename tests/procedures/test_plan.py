@@ -174,7 +174,8 @@ def test_every_setting_has_a_name_to_read() -> None:
             found |= keys(value, f"{prefix}{key}.") if isinstance(value, dict) else {f"{prefix}{key}"}
         return found
 
-    assert keys(plan_to_toml(Plan())) == set(PLAN_LABELS)
+    every = keys(plan_to_toml(Plan())) | keys(plan_to_toml(Plan(procedure="imu-discrete")))
+    assert every == set(PLAN_LABELS)
     for label in PLAN_LABELS.values():
         assert "_" not in label.text()
         assert label.text("zh") != label.text()

@@ -10,7 +10,7 @@ from ahrs_lab.certificates.charts import position_blocks, residual_blocks
 from ahrs_lab.certificates.documents import Block, Chart, Document, Heading, Paragraph, Series, label
 from ahrs_lab.certificates.job_sheet import CertificateLanguage
 from ahrs_lab.certificates.layout import write_document
-from ahrs_lab.certificates.original_record import record_frame
+from ahrs_lab.certificates.record_parts import record_frame
 from ahrs_lab.certificates.result_tables import ARCMIN, AXES
 from ahrs_lab.certificates.richtext import plain
 from ahrs_lab.metrology.result import MISALIGNMENT_KEYS, CalibrationResult

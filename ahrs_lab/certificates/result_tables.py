@@ -65,7 +65,7 @@ def significant(value: float, digits: int = 2) -> str:
     return format_grouped(round_to_place(value, decimals))
 
 
-def _without_noise(product: float) -> float:
+def without_noise(product: float) -> float:
     """Twelve digits: the last bits of a change of unit must not decide a tie or raise a digit."""
     return float(f"{product:.12g}")
 
@@ -107,7 +107,7 @@ class ResultWriter:
     def pair(self, value: float, uncertainty: Uncertainty, factor: float = 1.0) -> tuple[Label, Label]:
         """Value and U, both times ``factor``, rounded to the same place and grouped."""
         rounded = round_to_uncertainty(
-            _without_noise(value * factor), _without_noise(uncertainty.expanded * factor), self.rounding
+            without_noise(value * factor), without_noise(uncertainty.expanded * factor), self.rounding
         )
         return same(format_grouped(rounded.value)), same(format_grouped(rounded.expanded))
 
@@ -274,7 +274,7 @@ def _asymmetry(result: ScaleFactorResult, writer: ResultWriter) -> tuple[Label, 
     if not standard:
         return same(significant(result.asymmetry_ppm)), same(DASH)
     rounded = round_to_uncertainty(
-        _without_noise(result.asymmetry_ppm), _without_noise(standard), writer.rounding
+        without_noise(result.asymmetry_ppm), without_noise(standard), writer.rounding
     )
     return same(format_grouped(rounded.value)), same(format_grouped(rounded.expanded))
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from ahrs_lab.certificates.job_sheet import JobSheet
-from ahrs_lab.certificates.original_record import column_figures, figure, original_record_pdf
+from ahrs_lab.certificates.original_record import original_record_pdf
 from ahrs_lab.certificates.plots import plots_pdf
+from ahrs_lab.certificates.record_parts import column_figures, figure
 from ahrs_lab.certificates.richtext import number_of, text_of
 from ahrs_lab.metrology.result import CalibrationResult
 from tests.certificates.conftest import BUNDLE_SHA256

@@ -14,11 +14,11 @@ from ahrs_lab.cli.stop_signals import stop_signals
 from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle, read_result, write_files
 from ahrs_lab.laboratory.judgement import Judged, judge_result
+from ahrs_lab.laboratory.results import AnyResult, to_json
 from ahrs_lab.metrology.best_capability import BestCapability
 from ahrs_lab.metrology.conformity_json import conformity_to_json
+from ahrs_lab.metrology.imu_result import ImuResult
 from ahrs_lab.metrology.requirements import Requirements
-from ahrs_lab.metrology.result import CalibrationResult
-from ahrs_lab.metrology.result_json import to_json
 from ahrs_lab.metrology.rounding import RoundingMode
 
 if TYPE_CHECKING:
@@ -132,9 +132,9 @@ def _evaluate(arguments: argparse.Namespace) -> int:
     requirements = job.requirements if job else Requirements()
     _refuse_strict_without_limits(arguments, requirements)
     result = evaluate_bundle(arguments.bundle, _settings(arguments, job), job.capability if job else None)
-    judged = judge_result(result, requirements, job.best_capability if job else BestCapability())
+    judged = _judged(arguments, result, requirements, job.best_capability if job else BestCapability())
     rounding: RoundingMode = job.rounding if job else "half-even"
-    text = "\n".join([summary(judged.shown, rounding), *judgement(judged, rounding)])
+    text = "\n".join([summary(judged.shown if judged else result, rounding), *judgement(judged, rounding)])
     if arguments.out is not None:
         files = write_files(result, arguments.out)
         text += "\n\nFiles: " + ", ".join(str(path) for path in files.values())
@@ -147,9 +147,26 @@ def _refuse_strict_without_limits(arguments: argparse.Namespace, requirements: R
         raise InputError("--strict needs limits: add [[limit]] tables to the JOB.toml given with --job.")
 
 
-def _judged_json(judged: Judged) -> dict[str, Any]:
+def _judged(
+    arguments: argparse.Namespace, result: AnyResult, requirements: Requirements, capability: BestCapability
+) -> Judged | None:
+    """None for a calibration whose quantities have no limits; raises InputError where the answer was to
+    depend on limits all the same."""
+    if not isinstance(result, ImuResult):
+        return judge_result(result, requirements, capability)
+    if arguments.strict:
+        raise InputError(
+            "--strict is for results by JJF 1536-2015: the quantities of a discrete IMU calibration have no "
+            "limits."
+        )
+    return None
+
+
+def _judged_json(judged: Judged | None) -> dict[str, Any]:
     """Keys beside the result's own, where there is something to say."""
     data: dict[str, Any] = {}
+    if judged is None:
+        return data
     if judged.conformity is not None:
         data["conformity"] = conformity_to_json(judged.conformity)
     if judged.raised:
@@ -157,9 +174,10 @@ def _judged_json(judged: Judged) -> dict[str, Any]:
     return data
 
 
-def _strict_code(arguments: argparse.Namespace, judged: Judged) -> int:
+def _strict_code(arguments: argparse.Namespace, judged: Judged | None) -> int:
     """1: done, but out of specification, which is an answer only where it was asked for."""
-    return 1 if arguments.strict and judged.conformity is not None and not judged.conformity.within else 0
+    conformity = judged.conformity if judged is not None else None
+    return 1 if arguments.strict and conformity is not None and not conformity.within else 0
 
 
 def _certificate(arguments: argparse.Namespace) -> int:
@@ -171,7 +189,7 @@ def _certificate(arguments: argparse.Namespace) -> int:
     if arguments.budget_annex:
         job = replace(job, budget_annex=True)
     _refuse_strict_without_limits(arguments, job.requirements)
-    judged = judge_result(result, job.requirements, job.best_capability)
+    judged = _judged(arguments, result, job.requirements, job.best_capability)
     with OutputFolder(arguments.out.parent):
         certificate_pdf(result, job, arguments.out, arguments.language)
     data = {"certificate": str(arguments.out), "number": job.certificate_number, **_judged_json(judged)}
@@ -219,12 +237,14 @@ def _replay(arguments: argparse.Namespace) -> int:
     return replay.run(arguments)
 
 
-def judgement(judged: Judged, rounding: RoundingMode = "half-even") -> list[str]:
+def judgement(judged: Judged | None, rounding: RoundingMode = "half-even") -> list[str]:
     """Each verdict as a person reads it in a terminal, the rule first; nothing where no limits are set.
     Values, U and probability as the certificate rounds them."""
     from ahrs_lab.certificates.conformity_tables import probability_text
     from ahrs_lab.metrology.rounding import round_to_uncertainty
 
+    if judged is None:
+        return []
     lines = [f"  U of {key} raised to the laboratory's best capability" for key in judged.raised]
     conformity = judged.conformity
     if conformity is None:
@@ -241,9 +261,13 @@ def judgement(judged: Judged, rounding: RoundingMode = "half-even") -> list[str]
     return lines + [f"  {key:8} has a limit, but was not calibrated" for key in conformity.missing]
 
 
-def summary(result: CalibrationResult, rounding: RoundingMode = "half-even") -> str:
-    """The result as a person reads it in a terminal: value ± U, rounded as on a certificate."""
+def summary(result: AnyResult, rounding: RoundingMode = "half-even") -> str:
+    """The result as a person reads it in a terminal: value ± U, rounded as on a certificate; of an IMU the
+    tables of its calibration set."""
     from ahrs_lab.metrology.rounding import round_to_uncertainty
+
+    if isinstance(result, ImuResult):
+        return _imu_summary(result)
 
     def line(name: str, value: float, expanded: float, unit: str, k: float) -> str:
         rounded = round_to_uncertainty(value, expanded, rounding)
@@ -262,6 +286,14 @@ def summary(result: CalibrationResult, rounding: RoundingMode = "half-even") -> 
         place = f"{warning.segment}{line_number}: " if warning.segment else ""
         lines.append(f"  warning: {place}{warning.what.text()}")
     return "\n".join(lines)
+
+
+def _imu_summary(result: ImuResult) -> str:
+    from ahrs_lab.analysis.report import report_text
+    from ahrs_lab.laboratory.imu_evaluation import imu_report
+
+    lines = [f"{result.procedure}, recording {result.bundle_sha256[:16]}…", report_text(imu_report(result))]
+    return "\n".join([*lines, *(f"  deviation: {message.text()}" for message in result.deviations)])
 
 
 _COMMANDS = {

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from ahrs_lab.errors import InputError, MachineError
 from ahrs_lab.laboratory.evaluation import OutputFolder
 from ahrs_lab.laboratory.job_sheets import job_sheet
-from ahrs_lab.metrology.result import CalibrationResult
+from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.records.rows import PersonRow, SignedIn, SigningRole
 
 if TYPE_CHECKING:
@@ -43,14 +43,14 @@ def _key_name(person: PersonRow) -> str:
     return f"person-{person.id}"
 
 
-def _measured(laboratory: Laboratory, number: str) -> CalibrationResult:
+def _measured(laboratory: Laboratory, number: str) -> AnyResult:
     result = laboratory.result(number)
     if result is None:
         raise InputError("Job {number} has no result yet: run the calibration first.", number=number)
     return result
 
 
-def _sheet(laboratory: Laboratory, number: str, result: CalibrationResult, issued: date | None) -> JobSheet:
+def _sheet(laboratory: Laboratory, number: str, result: AnyResult, issued: date | None) -> JobSheet:
     accepted = result.notes.get("accepted_violations", ())
     return job_sheet(
         laboratory.job(number),

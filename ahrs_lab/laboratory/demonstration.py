@@ -17,11 +17,11 @@ from ahrs_lab.laboratory import certification
 from ahrs_lab.laboratory.benches import bench_presets, plan_presets
 from ahrs_lab.laboratory.evaluation import OutputFolder, write_files
 from ahrs_lab.laboratory.headless import heard_by, load_evaluation, wait_for
+from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.metrology.conformity import DecisionRule
 from ahrs_lab.metrology.figures_json import figures_text
 from ahrs_lab.metrology.limits import Limit
 from ahrs_lab.metrology.requirements import Requirements, requirements_to_json
-from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.metrology.stated_figures import StatedFigure
 from ahrs_lab.recording.folder_lock import FolderLock
 from ahrs_lab.recording.read_ahead import ReadAhead
@@ -221,7 +221,7 @@ def _draft(laboratory: Laboratory, plan: str, people: tuple[int, int, int], plan
 class DemonstrationOutcome:
     """What the demonstration left: its result and the files by kind."""
 
-    result: CalibrationResult
+    result: AnyResult
     files: dict[str, Path]
 
 

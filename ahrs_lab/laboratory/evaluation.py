@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import ahrs_lab
 from ahrs_lab.errors import InputError, MachineError
+from ahrs_lab.laboratory.results import AnyResult, from_json, to_json
 from ahrs_lab.metrology.conditions import BenchCapability
-from ahrs_lab.metrology.result import CalibrationResult
-from ahrs_lab.metrology.result_json import from_json, to_json
+from ahrs_lab.metrology.imu_result import PROCEDURE as IMU_PROCEDURE
+from ahrs_lab.metrology.imu_result import ImuResult
 
 if TYPE_CHECKING:
     from ahrs_lab.recording.read_ahead import ReadAhead
@@ -38,8 +39,9 @@ def evaluate_bundle(
     settings: EvaluationSettings | None = None,
     capability: BenchCapability | None = None,
     ahead: ReadAhead | None = None,
-) -> CalibrationResult:
-    """Read ``bundle`` (folder or ``.ahrsrec``) with all its checks and reduce it.
+) -> AnyResult:
+    """Read ``bundle`` (folder or ``.ahrsrec``) with all its checks and reduce it by the procedure it was
+    recorded for; ``settings`` are of JJF 1536.
 
     ``capability``: the bench's figures; None: those that the recording names, else clause 6's own. ``ahead``
     read its segments while it was being recorded.
@@ -47,9 +49,14 @@ def evaluate_bundle(
     from ahrs_lab.procedures.reduction import reduce_recording
     from ahrs_lab.recording.read import read_bundle
 
+    recording = read_bundle(bundle, ahead)
+    if recording.header.procedure == IMU_PROCEDURE:
+        from ahrs_lab.laboratory.imu_evaluation import evaluate_imu
+
+        return evaluate_imu(recording, capability, SOFTWARE)
     settings = settings or EvaluationSettings()
     return reduce_recording(
-        read_bundle(bundle, ahead),
+        recording,
         rates=settings.rates,
         uncertainty=settings.uncertainty,
         capability=capability,
@@ -59,18 +66,24 @@ def evaluate_bundle(
     )
 
 
-def write_files(result: CalibrationResult, folder: Path) -> dict[str, Path]:
+def write_files(result: AnyResult, folder: Path) -> dict[str, Path]:
     """Leave ``result.json``, ``budget.csv``, ``plots.pdf`` and ``original-record.pdf`` in ``folder``; returns
-    where they are."""
+    where they are. Of an IMU the result, which is its calibration set, and the record."""
     from ahrs_lab.certificates.original_record import original_record_pdf
     from ahrs_lab.certificates.plots import plots_pdf
     from ahrs_lab.laboratory.budget_csv import save_budget_csv
 
+    record = folder / "original-record.pdf"
+    if isinstance(result, ImuResult):
+        with OutputFolder(folder):
+            write_json(to_json(result), folder / "result.json")
+            original_record_pdf(result, record)
+        return {"result": folder / "result.json", "original_record": record}
     files = {
         "result": folder / "result.json",
         "budget": folder / "budget.csv",
         "plots": folder / "plots.pdf",
-        "original_record": folder / "original-record.pdf",
+        "original_record": record,
     }
     with OutputFolder(folder):
         write_json(to_json(result), files["result"])
@@ -89,7 +102,7 @@ def write_json(data: dict[str, Any], target: Path) -> None:
     partial.replace(target)
 
 
-def read_result(path: Path) -> CalibrationResult:
+def read_result(path: Path) -> AnyResult:
     """A result file written earlier; from outside, so it is checked."""
     try:
         with path.open("rb") as file:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, OutputFolder, evaluate_bundle
-from ahrs_lab.metrology.result_json import to_json
+from ahrs_lab.laboratory.results import to_json
 from ahrs_lab.recording.bundle_source import HEADER_FILE
 from ahrs_lab.records.rows import CustomerRow, DeviceRow, JobDraft, SignedIn
 

@@ -13,9 +13,9 @@ from ahrs_lab.instruments.interfaces import Bench
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle, write_files
 from ahrs_lab.laboratory.header import recording_header
 from ahrs_lab.laboratory.live_run import LiveRun
+from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import BenchCapability
-from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.procedures.events import Event, SegmentFinished
 from ahrs_lab.procedures.plan import Plan, check_plan
 from ahrs_lab.recording.read_ahead import ReadAhead
@@ -42,7 +42,7 @@ class HeadlessOutcome:
     """What a run left: the recording, its result, and the files by kind."""
 
     bundle: Path
-    result: CalibrationResult
+    result: AnyResult
     files: dict[str, Path]
 
 

@@ -7,14 +7,16 @@ from typing import cast
 
 from ahrs_lab.certificates.job_sheet import DeviceUnderTest, JobSheet, Party, Person
 from ahrs_lab.errors import InputError
+from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.best_capability import capability_from_json
 from ahrs_lab.metrology.capability import capability_of, figure_conflicts
 from ahrs_lab.metrology.conditions import BenchCapability, Standard, StandardKind, clause6_violations
 from ahrs_lab.metrology.figures_json import figures_from_text
+from ahrs_lab.metrology.imu_result import ImuResult
 from ahrs_lab.metrology.recorded_days import is_recorded_on, recorded_days
 from ahrs_lab.metrology.requirements import requirements_from_json
-from ahrs_lab.metrology.result import CalibrationResult, Method
+from ahrs_lab.metrology.result import Method, Reported
 from ahrs_lab.records.rows import JobRow, LaboratoryRow, PersonRow, StandardRow
 
 
@@ -59,7 +61,7 @@ def capability(job: JobRow) -> BenchCapability:
     return capability_of(standards_of(job), job.calibrated or date.today())  # noqa: DTZ011
 
 
-def violations(job: JobRow, result: CalibrationResult | None) -> tuple[Message, ...]:
+def violations(job: JobRow, result: Reported | None) -> tuple[Message, ...]:
     """What violates clause 6: standards missing or overdue, a bench that is worse, and, once measured, the
     room; before them figures that cannot be used together."""
     standards = standards_of(job)
@@ -72,7 +74,7 @@ def violations(job: JobRow, result: CalibrationResult | None) -> tuple[Message, 
     )
 
 
-def _calibrated(job: JobRow, result: CalibrationResult | None) -> date:
+def _calibrated(job: JobRow, result: Reported | None) -> date:
     """The job's own day of calibration; the recording's last day where that is another or none is known, as
     for a recording that was made elsewhere."""
     day = job.calibrated or date.today()  # noqa: DTZ011  due dates are the laboratory's own
@@ -85,7 +87,7 @@ def _calibrated(job: JobRow, result: CalibrationResult | None) -> date:
 def job_sheet(
     job: JobRow,
     laboratory: LaboratoryRow,
-    result: CalibrationResult,
+    result: AnyResult,
     *,
     issued: date | None,
     accepted_violations: tuple[str, ...] = (),
@@ -100,12 +102,6 @@ def job_sheet(
             )
     if not laboratory.name:
         raise InputError("The laboratory has no name yet: enter it on the page Set-up.")
-    uncertainties = [
-        *(k.uncertainty for k in result.scale_factor.values()),
-        *(b.uncertainty for b in result.zero_offset.values()),
-        *(m.uncertainty for m in result.misalignment.values()),
-    ]
-    method: Method = uncertainties[0].method if uncertainties else "gum"
     return JobSheet(
         number=job.number,
         certificate_number=job.certificate_number,
@@ -132,10 +128,21 @@ def job_sheet(
         capability=capability(job),
         requirements=requirements_from_json(job.limits_json),
         best_capability=capability_from_json(laboratory.capability_json),
-        uncertainty_method=method,
+        uncertainty_method=_method(result),
         accepted_violations=accepted_violations,
         demonstration=result.simulated,
     )
+
+
+def _method(result: AnyResult) -> Method:
+    if isinstance(result, ImuResult):
+        return "gum"
+    uncertainties = [
+        *(k.uncertainty for k in result.scale_factor.values()),
+        *(b.uncertainty for b in result.zero_offset.values()),
+        *(m.uncertainty for m in result.misalignment.values()),
+    ]
+    return uncertainties[0].method if uncertainties else "gum"
 
 
 def _person(row: PersonRow | None) -> Person:

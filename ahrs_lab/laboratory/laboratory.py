@@ -21,12 +21,12 @@ from ahrs_lab.laboratory.benches import bench_from_text, bench_presets, plan_fro
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle
 from ahrs_lab.laboratory.home import home_folder
 from ahrs_lab.laboratory.judgement import Judged, judge_for_screen
+from ahrs_lab.laboratory.results import AnyResult, from_json_text, to_json
 from ahrs_lab.laboratory.settings import Settings
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.best_capability import capability_from_json
+from ahrs_lab.metrology.imu_result import ImuResult
 from ahrs_lab.metrology.requirements import requirements_from_json
-from ahrs_lab.metrology.result import CalibrationResult
-from ahrs_lab.metrology.result_json import from_json_text, to_json
 from ahrs_lab.procedures.plan import Plan
 from ahrs_lab.recording.samples import Samples
 from ahrs_lab.records.rows import (
@@ -211,7 +211,7 @@ class Laboratory:
 
         take_up(self, number, actor, reason)
 
-    def finish_run(self, number: str, actor: SignedIn, ahead: ReadAhead | None = None) -> CalibrationResult:
+    def finish_run(self, number: str, actor: SignedIn, ahead: ReadAhead | None = None) -> AnyResult:
         """Evaluate what the job's run recorded (``ahead`` has read of it already), keep the result, and call
         the job measured."""
         result = self.recalculate(number, EvaluationSettings(), actor, ahead)
@@ -227,7 +227,7 @@ class Laboratory:
 
     def recalculate(
         self, number: str, settings: EvaluationSettings, actor: SignedIn, ahead: ReadAhead | None = None
-    ) -> CalibrationResult:
+    ) -> AnyResult:
         """Reduce the job's recording again, as its customer asked; the result becomes the current one,
         earlier ones stay."""
         job = self.job(number)
@@ -240,15 +240,16 @@ class Laboratory:
         )
         return result
 
-    def result(self, number: str) -> CalibrationResult | None:
+    def result(self, number: str) -> AnyResult | None:
         """The current result, or None before there is one."""
         rows = self.records.jobs.results(number)
         return from_json_text(rows[-1].json) if rows else None
 
     def judged(self, number: str) -> Judged | None:
-        """The current result as it is reported and judged; None before there is one."""
+        """The current result by JJF 1536 as it is reported and judged; None before there is one, and for a
+        calibration by another procedure, whose quantities have no limits."""
         result = self.result(number)
-        if result is None:
+        if result is None or isinstance(result, ImuResult):
             return None
         return judge_for_screen(
             result,

@@ -10,7 +10,7 @@ import pytest
 from ahrs_lab.instruments.interfaces import Bench
 from ahrs_lab.laboratory.benches import load_bench
 from ahrs_lab.laboratory.headless import run_plan
-from ahrs_lab.metrology.result_json import to_json
+from ahrs_lab.laboratory.results import to_json
 from ahrs_lab.procedures.plan import load_plan
 from ahrs_lab.simulation import bench as simulated_bench
 from tests.laboratory.short_run import write_bench, write_plan

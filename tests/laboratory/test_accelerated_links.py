@@ -19,7 +19,7 @@ from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.benches import bench_from_text
 from ahrs_lab.laboratory.headless import run_plan
 from ahrs_lab.laboratory.linked_benches import linked_bench
-from ahrs_lab.metrology.result_json import to_json
+from ahrs_lab.laboratory.results import to_json
 from ahrs_lab.procedures.plan import load_plan
 from ahrs_lab.simulation.servers.linked_toml import linked_bench as linked_toml
 from ahrs_lab.simulation.servers.served_bench import ServeSettings, serve_bench

@@ -18,6 +18,7 @@ from ahrs_lab.laboratory import job_sheets
 from ahrs_lab.laboratory.demonstration import APPROVER, OPERATOR, PASSWORD, VERIFIER
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle
 from ahrs_lab.laboratory.laboratory import Laboratory
+from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.records.rows import JobDraft, PersonRow, SignedIn, SigningRole
 from tests.laboratory.short_run import PLAN
@@ -224,7 +225,7 @@ def test_a_signed_job_takes_no_other_result(desk: Desk) -> None:
     with pytest.raises(InputError, match="send it back"):
         desk.laboratory.recalculate(desk.number, EvaluationSettings(), desk.person("operator"))
     result = desk.laboratory.result(desk.number)
-    assert result is not None
+    assert isinstance(result, CalibrationResult)
     assert result.scale_factor["x"].uncertainty.method == "annex-a"
 
 
@@ -255,9 +256,9 @@ def test_the_command_line_does_not_call_a_half_signed_certificate_good(desk: Des
     assert main(["verify", str(file), "--trust", str(root)]) == 1
 
 
-def rows_of(result: CalibrationResult | None) -> dict[str, tuple[str, str]]:
+def rows_of(result: AnyResult | None) -> dict[str, tuple[str, str]]:
     """Symbol → origin and certificate of the bench's rows."""
-    assert result is not None
+    assert isinstance(result, CalibrationResult)
     stated = [
         *(found.uncertainty for found in result.scale_factor.values()),
         *(found.uncertainty for found in result.zero_offset.values()),
@@ -300,7 +301,7 @@ def test_figures_that_the_job_no_longer_names_are_said_until_it_is_evaluated_aga
 
     def remarks() -> list[str]:
         result = laboratory.result(desk.number)
-        assert result is not None
+        assert isinstance(result, CalibrationResult)
         sheet = job_sheets.job_sheet(laboratory.job(desk.number), laboratory.profile(), result, issued=None)
         return [message.text() for message in mismatches_of(result, sheet) if said in message.text()]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from ahrs_lab.cli import main
+from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.resource_files import resource_path
 
 
@@ -130,5 +131,5 @@ def test_the_job_can_be_exported_and_taken_in_elsewhere(
         result = laboratory.result(taken)
         assert laboratory.job(taken).state == "measured"
     first = json.loads((out / "result.json").read_text(encoding="utf-8"))
-    assert result is not None
+    assert isinstance(result, CalibrationResult)
     assert first["scale_factor"]["x"]["K"] == result.scale_factor["x"].K

@@ -16,7 +16,7 @@ from ahrs_lab.instruments.links.faulty import FaultyLink, LinkFaults
 from ahrs_lab.laboratory.benches import bench_from_text
 from ahrs_lab.laboratory.headless import run_plan
 from ahrs_lab.laboratory.linked_benches import LinkedBench, linked_bench
-from ahrs_lab.metrology.result_json import to_json
+from ahrs_lab.laboratory.results import to_json
 from ahrs_lab.procedures.plan import load_plan
 from ahrs_lab.simulation.servers.served_bench import ServedBench
 from tests.laboratory.served import served, steady_bench

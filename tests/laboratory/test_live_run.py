@@ -16,8 +16,8 @@ from ahrs_lab.laboratory.benches import bench_from_text
 from ahrs_lab.laboratory.evaluation import evaluate_bundle
 from ahrs_lab.laboratory.header import recording_header
 from ahrs_lab.laboratory.live_run import LiveRun
+from ahrs_lab.laboratory.results import to_json
 from ahrs_lab.messages import Message
-from ahrs_lab.metrology.result_json import to_json
 from ahrs_lab.procedures.events import Event, MountRequested, SegmentStarted, StateChanged
 from ahrs_lab.procedures.plan import load_plan
 from ahrs_lab.recording.samples import Samples

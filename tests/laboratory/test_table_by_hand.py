@@ -18,8 +18,8 @@ from ahrs_lab.laboratory.hands import TerminalOperator
 from ahrs_lab.laboratory.header import recording_header
 from ahrs_lab.laboratory.headless import run_plan
 from ahrs_lab.laboratory.live_run import LiveRun
+from ahrs_lab.laboratory.results import to_json
 from ahrs_lab.messages import Message
-from ahrs_lab.metrology.result_json import to_json
 from ahrs_lab.procedures.events import (
     Event,
     HandChecked,

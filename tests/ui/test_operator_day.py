@@ -269,7 +269,7 @@ def read_results(day: Stage) -> None:
     day.settle()
     day.look_around("results")
     result = day.laboratory.result(JOB)
-    assert result is not None
+    assert isinstance(result, CalibrationResult)
     shown = hands.texts(day.screen.window.pages["results"])
     for name, value, expanded in numbers_of(result):
         pair = round_to_uncertainty(value, expanded)

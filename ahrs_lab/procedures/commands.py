@@ -130,7 +130,7 @@ class Step:
     """A line of the operator's list of steps; the commands yielded until the next one belong to it.
 
     ``key`` is stable over resumes; ``mounting`` is the face (``"x+"``) it is done on; ``kind`` one of mount,
-    power, rest, rates, turns, position; ``estimate_s`` its bench time.
+    power, rest, rates, turns, position, static; ``estimate_s`` its bench time.
     """
 
     key: str

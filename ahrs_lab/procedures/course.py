@@ -58,7 +58,7 @@ def calibration(
     Steps are yielded for skipped work too, with no commands behind them. ``limits`` of the table make turns
     no longer than they need; without them a slow table is assumed.
     """
-    sessions = _sessions(plan, limits)
+    sessions = sessions_of(plan, limits)
     yield from _Course(plan, limits).run([session.without(done) for session in sessions])
 
 
@@ -80,7 +80,7 @@ def segment_names(plan: Plan) -> tuple[str, ...]:
     """All segments of ``plan`` in the order of recording."""
     return tuple(
         take.segment.name
-        for session in _sessions(plan, None)
+        for session in sessions_of(plan, None)
         for block in session.blocks
         for take in block.takes
     )
@@ -92,9 +92,14 @@ def steps(
     """The operator's list, with the keys that :func:`calibration` yields; what is done takes no time."""
     course = _Course(plan, limits)
     listed: list[Step] = []
-    for session in _sessions(plan, limits):
+    for session in sessions_of(plan, limits):
         listed += course.steps_of(session.without(done))
     return tuple(listed)
+
+
+def sessions_of(plan: Plan, limits: TableLimits | None = None) -> tuple[Session, ...]:
+    """What the plan's procedure records, mounting by mounting."""
+    return _PLANNERS[plan.procedure](plan, limits or CAUTIOUS_TABLE)
 
 
 def _known(plan: Plan, segment_name: str) -> str:
@@ -109,7 +114,7 @@ def _known(plan: Plan, segment_name: str) -> str:
 
 def _only(plan: Plan, names: set[str], limits: TableLimits | None, reason: str) -> Procedure:
     done = frozenset(segment_names(plan)) - names
-    left = [session.without(done) for session in _sessions(plan, limits)]
+    left = [session.without(done) for session in sessions_of(plan, limits)]
     wanted = [replace(session, blocks=session.open_blocks) for session in left if session.open_blocks]
     return _with_reason(_Course(plan, limits).run(wanted), reason)
 
@@ -125,10 +130,6 @@ def _with_reason(commands: _Commands, reason: str) -> _Commands:
         if reason and isinstance(item, (Record, RecordTurns)):
             item = replace(item, segment=replace(item.segment, reason=reason))
         outcome = yield item
-
-
-def _sessions(plan: Plan, limits: TableLimits | None) -> tuple[Session, ...]:
-    return _PLANNERS[plan.procedure](plan, limits or CAUTIOUS_TABLE)
 
 
 class _Course:

@@ -170,4 +170,4 @@ class _Maker:
         point = point_to(self.plan, work.azimuth_deg, self.limits)
         straight = work.azimuth_deg % 90.0 == 0.0
         detail = work.orientation.letters if straight else f"{work.azimuth_deg:g}°"
-        return self._block(name, "position", detail, (take,), point)
+        return self._block(name, "static", detail, (take,), point)

@@ -153,6 +153,10 @@
         <translation>方案符合 JJF 1536-2015。</translation>
     </message>
     <message>
+        <source>The plan can be run.</source>
+        <translation>方案可以执行。</translation>
+    </message>
+    <message>
         <source>Enter the customer.</source>
         <translation>请填写送校单位。</translation>
     </message>
@@ -839,8 +843,16 @@
         <translation>与规范的偏离</translation>
     </message>
     <message>
+        <source>Remarks on the method</source>
+        <translation>方法说明</translation>
+    </message>
+    <message>
         <source>The plan follows JJF 1536-2015.</source>
         <translation>方案符合 JJF 1536-2015。</translation>
+    </message>
+    <message>
+        <source>None.</source>
+        <translation>无。</translation>
     </message>
     <message>
         <source>Expanded uncertainty</source>
@@ -1046,6 +1058,105 @@
     <message>
         <source>{room}: outside clause 6</source>
         <translation>{room}：超出第 6 章</translation>
+    </message>
+</context>
+<context>
+    <name>ImuView</name>
+    <message>
+        <source>Calibrated from {count} positions</source>
+        <translation>由 {count} 个位置标定</translation>
+    </message>
+    <message>
+        <source>Each value with its U (k = 2). Warnings: {warnings}.</source>
+        <translation>各值附 U（k = 2）。警告：{warnings} 条。</translation>
+    </message>
+    <message>
+        <source>To the certificate</source>
+        <translation>查看证书</translation>
+    </message>
+    <message>
+        <source>Quantity</source>
+        <translation>参数</translation>
+    </message>
+    <message>
+        <source>Output channel</source>
+        <translation>输出通道</translation>
+    </message>
+    <message>
+        <source>Input axis {axis}</source>
+        <translation>输入轴 {axis}</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>单位</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>位置</translation>
+    </message>
+    <message>
+        <source>X, Y, Z point</source>
+        <translation>X、Y、Z 指向</translation>
+    </message>
+    <message>
+        <source>Gyro {axis}, °/h</source>
+        <translation>陀螺 {axis}，°/h</translation>
+    </message>
+    <message>
+        <source>Accel. {axis}, mm/s²</source>
+        <translation>加速度计 {axis}，mm/s²</translation>
+    </message>
+    <message>
+        <source>Residuals of the fit. Condition numbers: positions {positions}, turns {turns}.</source>
+        <translation>拟合残差。条件数：位置 {positions}，转动 {turns}。</translation>
+    </message>
+    <message>
+        <source>Scale factor E₁</source>
+        <translation>标度因数 E₁</translation>
+    </message>
+    <message>
+        <source>Zero offset (constant drift) B₀</source>
+        <translation>零偏（常值漂移）B₀</translation>
+    </message>
+    <message>
+        <source>Specific-force coefficients Bf</source>
+        <translation>视加速度影响系数 Bf</translation>
+    </message>
+    <message>
+        <source>Misalignment E</source>
+        <translation>失准角 E</translation>
+    </message>
+    <message>
+        <source>Scale factor K₁</source>
+        <translation>标度因数 K₁</translation>
+    </message>
+    <message>
+        <source>Zero offset K₀</source>
+        <translation>零偏 K₀</translation>
+    </message>
+    <message>
+        <source>Misalignment K</source>
+        <translation>失准角 K</translation>
+    </message>
+    <message>
+        <source>Gyros</source>
+        <translation>陀螺</translation>
+    </message>
+    <message>
+        <source>Accelerometers</source>
+        <translation>加速度计</translation>
+    </message>
+    <message>
+        <source>Positions and residuals</source>
+        <translation>位置与残差</translation>
+    </message>
+    <message>
+        <source>Warnings and remarks</source>
+        <translation>警告与说明</translation>
+    </message>
+    <message>
+        <source>N = E₁·[B₀ + Bf·f + (I + E)·ω], N_A = K₁·[K₀ + (I + K)·f], channel by channel. To compensate: f = (I + K)⁻¹·(N_A/K₁ − K₀), then ω = (I + E)⁻¹·(N/E₁ − B₀ − Bf·f).</source>
+        <translation>N = E₁·[B₀ + Bf·f + (I + E)·ω]，N_A = K₁·[K₀ + (I + K)·f]，逐通道相乘。补偿：先 f = (I + K)⁻¹·(N_A/K₁ − K₀)，再 ω = (I + E)⁻¹·(N/E₁ − B₀ − Bf·f)。</translation>
     </message>
 </context>
 <context>
@@ -2143,6 +2254,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>组合零偏</translation>
     </message>
     <message>
+        <source>Discrete IMU calibration</source>
+        <translation>惯性测量组合分立标定</translation>
+    </message>
+    <message>
         <source>choose a preset …</source>
         <translation>选择预设…</translation>
     </message>
@@ -2163,8 +2278,36 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>失准角（7.3）</translation>
     </message>
     <message>
+        <source>Whole turns and positions (2.6.3)</source>
+        <translation>整周转动与静态位置（2.6.3）</translation>
+    </message>
+    <message>
         <source>Take over a preset</source>
         <translation>采用预设</translation>
+    </message>
+    <message>
+        <source>Procedure</source>
+        <translation>校准方法</translation>
+    </message>
+    <message>
+        <source>JJF 1536-2015: scale factor, zero offset, misalignment</source>
+        <translation>JJF 1536—2015：标度因数、零偏、失准角</translation>
+    </message>
+    <message>
+        <source>Discrete IMU calibration: gyros and accelerometers</source>
+        <translation>惯性测量组合分立标定：陀螺与加速度计</translation>
+    </message>
+    <message>
+        <source>Own positions: where x, y, z point</source>
+        <translation>自定义位置：x、y、z 轴的指向</translation>
+    </message>
+    <message>
+        <source>For example UEN, DES, NUE@30; @ is by how many degrees the table is turned on.</source>
+        <translation>例如 UEN, DES, NUE@30；@ 后为转台继续转过的角度（度）。</translation>
+    </message>
+    <message>
+        <source>Time at each position, s</source>
+        <translation>每个位置的时间，s</translation>
     </message>
     <message>
         <source>Order of mountings</source>
@@ -2249,6 +2392,14 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>stays on</source>
         <translation>保持接通</translation>
+    </message>
+    <message>
+        <source>8 (table 2-12)</source>
+        <translation>8（表 2-12）</translation>
+    </message>
+    <message>
+        <source>own list</source>
+        <translation>自定义</translation>
     </message>
     <message>
         <source>standard: 12 positions</source>
@@ -2908,6 +3059,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>{axis} 零偏 {position}</translation>
     </message>
     <message>
+        <source>at rest, {position}</source>
+        <translation>静置，{position}</translation>
+    </message>
+    <message>
         <source>{axis} with the table at rest</source>
         <translation>转台静止，测 {axis}</translation>
     </message>
@@ -2918,6 +3073,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>{n} turns about {axis} at {rate} °/s</source>
         <translation>绕 {axis} 轴转 {n} 周，{rate} °/s</translation>
+    </message>
+    <message>
+        <source>Position {n} at rest</source>
+        <translation>静态位置 {n}</translation>
     </message>
     <message>
         <source>Zero offset of {axis}, position {n}</source>
@@ -2934,6 +3093,14 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Misalignment (7.3). {standing}.</source>
         <translation>失准角（7.3）。{standing}。</translation>
+    </message>
+    <message>
+        <source>Rates of the IMU (2.6.3.1). {standing}.</source>
+        <translation>惯性测量组合速率标定（2.6.3.1）。{standing}。</translation>
+    </message>
+    <message>
+        <source>Positions of the IMU (2.6.3.2). {standing}.</source>
+        <translation>惯性测量组合位置标定（2.6.3.2）。{standing}。</translation>
     </message>
 </context>
 <context>

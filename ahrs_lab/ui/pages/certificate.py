@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QScrollArea, QStackedWid
 from ahrs_lab.certificates.job_sheet import CertificateLanguage
 from ahrs_lab.certificates.verify import VerificationReport
 from ahrs_lab.errors import AhrsLabError, MachineError
+from ahrs_lab.metrology.result import CalibrationResult
 from ahrs_lab.records.rows import JobRow, SigningRole
 from ahrs_lab.ui.page import Page
 from ahrs_lab.ui.pages.certificate_model import SIGNING_ORDER, signing_places
@@ -50,6 +51,7 @@ class CertificatePage(Page):
         self._desk = desk
         self._job: JobRow | None = None
         self._shown: Path | None = None
+        self._has_budgets = True
         self._stack = QStackedWidget()
         self.outer.addWidget(self._stack)
         self._empty = EmptyState("certificate")
@@ -151,8 +153,10 @@ class CertificatePage(Page):
         number, laboratory = self._desk.number, self._desk.laboratory
         self._job = None
         try:
-            if number and laboratory.result(number) is not None:
+            result = laboratory.result(number) if number else None
+            if result is not None:
                 self._job = laboratory.job(number)
+            self._has_budgets = isinstance(result, CalibrationResult)
         except AhrsLabError as error:
             self._desk.tell(error)
         self._stack.setCurrentIndex(1 if self._job is not None else 0)
@@ -170,7 +174,7 @@ class CertificatePage(Page):
             self.panels[place.role].show_place(place)
         signed = bool(signatures)
         self.language.setVisible(not signed)
-        self.budget_annex.setVisible(not signed)
+        self.budget_annex.setVisible(not signed and self._has_budgets)
         self._file.setText(f"{self._job.certificate_number}.pdf" if signed else "")
         may_send_back = self._job.state == "checked" and actor is not None and "approver" in actor.roles
         self.send_back.setVisible(may_send_back)

@@ -62,6 +62,10 @@ def step(which: Step) -> str:
             return QCoreApplication.translate("RunWords", "{axis} zero offset, {position}").format(
                 axis=axis, position=position(detail)
             )
+        case "static":
+            return QCoreApplication.translate("RunWords", "at rest, {position}").format(
+                position=position(detail)
+            )
         case _:
             return which.kind
 
@@ -84,6 +88,8 @@ def segment(which: Segment) -> str:
     if which.role == "turns":
         text = QCoreApplication.translate("RunWords", "{n} turns about {axis} at {rate} °/s")
         return text.format(n=abs(which.turns or 0), axis=axis, rate=signed_rate(which.rate_dps))
+    if which.item == "static":
+        return QCoreApplication.translate("RunWords", "Position {n} at rest").format(n=which.position or "")
     text = QCoreApplication.translate("RunWords", "Zero offset of {axis}, position {n}")
     return text.format(axis=axis, n=which.position or "")
 
@@ -103,6 +109,14 @@ def segment_kind(which: Segment) -> str:
             return QCoreApplication.translate("RunWords", "Misalignment (7.3). {standing}.").format(
                 standing=orientation(which.orientation)
             )
+        case "rotation":
+            return QCoreApplication.translate("RunWords", "Rates of the IMU (2.6.3.1). {standing}.").format(
+                standing=orientation(which.orientation)
+            )
+        case "static":
+            return QCoreApplication.translate(
+                "RunWords", "Positions of the IMU (2.6.3.2). {standing}."
+            ).format(standing=orientation(which.orientation))
         case _:
             return orientation(which.orientation)
 

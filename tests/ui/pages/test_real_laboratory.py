@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import cast
 
 import pytest
 from PySide6.QtCore import QTimer
@@ -18,7 +19,9 @@ from ahrs_lab.ui.pages.certificate import CertificatePage
 from ahrs_lab.ui.pages.certificate_signing import SignDialog
 from ahrs_lab.ui.pages.desk import Desk
 from ahrs_lab.ui.pages.jobs.page import JobsPage
+from ahrs_lab.ui.pages.jobs.plan_model import EntryName
 from ahrs_lab.ui.pages.results.page import ResultsPage
+from ahrs_lab.ui.pages.widgets.form import TextField
 from ahrs_lab.ui.workspace import Workspace
 from tests.ui.conftest import Look
 
@@ -100,6 +103,43 @@ def test_a_job_goes_from_its_start_to_three_valid_signatures(
     assert laboratory.verify(file).intact
     assert laboratory.job(number).state == "issued"
     assert "changed" not in " ".join(certificate.verdict.texts()).replace("unchanged", "")
+
+
+@pytest.mark.slow
+def test_an_imu_goes_from_its_plan_to_its_signed_sheet(
+    real: tuple[MainWindow, Desk, Laboratory], qtbot: QtBot
+) -> None:
+    window, desk, laboratory = real
+    number = laboratory.jobs()[-1 - ACCELERATED].number
+    desk.open(number, "jobs")
+    page = window.pages["jobs"]
+    assert isinstance(page, JobsPage)
+    plan = page.editor.plan
+    plan.procedure.set_key("imu-discrete")
+    plan.procedure.edited.emit()
+    for name, text in (("imu_dwell", "20"), ("imu_turns", "2")):
+        field = plan.fields[cast(EntryName, name)]
+        assert isinstance(field, TextField)
+        field.set_text(text)
+        field.edited.emit()
+    assert page.editor.save()
+    measure(window, desk, number, qtbot)
+    results, certificate = window.pages["results"], window.pages["certificate"]
+    assert isinstance(results, ResultsPage)
+    assert isinstance(certificate, CertificatePage)
+    assert window.current_page() == "results"
+    assert results.imu.isVisible()
+    assert "12 positions" in results.imu.verdict.title()
+    desk.open(number, "certificate")
+    qtbot.waitUntil(lambda: certificate.view.count() >= 3, timeout=30_000)
+    assert not certificate.budget_annex.isVisible()
+    for role in ("operator", "verifier", "approver"):
+        person = getattr(laboratory.job(number), role)
+        laboratory.sign(number, role, laboratory.sign_in(person.name, PASSWORD), PASSWORD)
+    file = laboratory.certificate(number)
+    assert file is not None
+    assert laboratory.verify(file).intact
+    assert laboratory.job(number).state == "issued"
 
 
 def test_a_stopped_run_leaves_the_job_ready_to_go_on(

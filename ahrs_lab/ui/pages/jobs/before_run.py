@@ -27,6 +27,8 @@ class Readiness:
     deviations: tuple[Message, ...]
     estimate: Estimate | None
     limits: Message | None = None
+    by_standard: bool = True
+    """The plan is one of JJF 1536."""
 
 
 class BeforeRunCard(Card):
@@ -104,6 +106,8 @@ class BeforeRunCard(Card):
                 )
                 if found.deviations
                 else self.tr("The plan follows JJF 1536-2015.")
+                if found.by_standard
+                else self.tr("The plan can be run.")
             )
             lines.append(IconLine("good", text))
         return lines

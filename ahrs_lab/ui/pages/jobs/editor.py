@@ -221,6 +221,7 @@ class JobEditor(Translated):
                 else None
             ),
             limits=self.limits.refusal(),
+            by_standard=found.plan is None or found.plan.procedure == "jjf1536-2015",
         )
         self.before_run.show_readiness(readiness)
         self.start_button.setEnabled(readiness.limits is None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase
@@ -17,9 +18,12 @@ from ahrs_lab.ui.pages.jobs.plan_model import (
     MOUNTING_ORDERS,
     ORDERS,
     POWERS,
+    PROCEDURES,
     SCHEDULES,
+    SCHEMES,
     EntryName,
     PlanView,
+    default_plan,
     entries_of,
     plan_of_text,
     text_of_plan,
@@ -30,7 +34,13 @@ from ahrs_lab.ui.theme import GAP, TEXT_PX
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Banner, Label, LinkButton
 
-_CHOICES = {"order": ORDERS, "schedule": SCHEDULES, "mounting_order": MOUNTING_ORDERS, "power": POWERS}
+_CHOICES = {
+    "order": ORDERS,
+    "schedule": SCHEDULES,
+    "mounting_order": MOUNTING_ORDERS,
+    "power": POWERS,
+    "scheme": SCHEMES,
+}
 
 
 class PlanForm(Translated):
@@ -45,10 +55,11 @@ class PlanForm(Translated):
         self._limits: TableLimits | None = None
         self._text_error = ""
         self.preset = ChoiceField()
+        self.procedure = ChoiceField()
         self.fields: dict[EntryName, TextField | ChoiceField] = {
             name: ChoiceField() if name in _CHOICES else TextField() for name in ENTRIES
         }
-        self._heads = [Label(role="strong") for _ in range(4)]
+        self._heads = [Label(role="strong") for _ in range(5)]
         self._stack = QStackedWidget()
         self._stack.addWidget(self._make_form())
         self.text = QPlainTextEdit()
@@ -70,6 +81,7 @@ class PlanForm(Translated):
         for field in self.fields.values():
             field.edited.connect(self._form_edited)
         self.preset.edited.connect(self._take_preset)
+        self.procedure.edited.connect(self._take_procedure)
         self.text.textChanged.connect(self._text_edited)
         self.retranslate()
         self._show_plan()
@@ -81,15 +93,25 @@ class PlanForm(Translated):
         column.setSpacing(GAP)
         f = self.fields
         parts = (
-            grid((self.preset, f["mounting_order"], f["power"], f["warm_up"])),
+            grid(
+                (self.procedure, None, self.preset, None),
+                (f["mounting_order"], f["power"], f["warm_up"], f["repeats"]),
+            ),
             grid((f["rates"],), (f["order"], f["dwell"], f["static"])),
-            grid((f["schedule"], f["duration"], f["repeats"], f["positions"])),
+            grid((f["schedule"], f["duration"], f["positions"])),
             grid((f["turn_rate"], f["turns"])),
+            grid((f["scheme"], f["imu_dwell"], f["imu_turns"], f["imu_rate"]), (f["own"],)),
         )
+        self._groups: list[QWidget] = []
         for head, part in zip(self._heads, parts, strict=True):
-            column.addWidget(head)
-            column.addLayout(part)
-            column.addSpacing(GAP)
+            group = QWidget()
+            inside = QVBoxLayout(group)
+            inside.setContentsMargins(0, 0, 0, GAP)
+            inside.setSpacing(GAP)
+            inside.addWidget(head)
+            inside.addLayout(part)
+            column.addWidget(group)
+            self._groups.append(group)
         column.addStretch(1)
         return form
 
@@ -135,7 +157,7 @@ class PlanForm(Translated):
 
     def set_editable(self, editable: bool) -> None:
         """A measured job keeps its plan."""
-        for field in (*self.fields.values(), self.preset):
+        for field in (*self.fields.values(), self.preset, self.procedure):
             field.editor.setEnabled(editable)
         self.text.setReadOnly(not editable)
 
@@ -148,6 +170,7 @@ class PlanForm(Translated):
         }
 
     def _show_plan(self) -> None:
+        self.procedure.set_key(self._base.procedure)
         for name, text in entries_of(self._base).items():
             field = self.fields[name]
             if isinstance(field, ChoiceField):
@@ -160,9 +183,26 @@ class PlanForm(Translated):
         multi = self.fields["schedule"]
         assert isinstance(multi, ChoiceField)
         self.fields["positions"].setVisible(multi.key() == "multi-position")
+        scheme = self.fields["scheme"]
+        assert isinstance(scheme, ChoiceField)
+        self.fields["own"].setVisible(scheme.key() == "own")
+        for_imu = self._base.procedure == "imu-discrete"
+        for group in self._groups[1:4]:
+            group.setVisible(not for_imu)
+        self._groups[4].setVisible(for_imu)
 
     def _form_edited(self) -> None:
         self._enable()
+        self._judge()
+        self.edited.emit()
+
+    def _take_procedure(self) -> None:
+        """Another procedure begins with a plan of its own; table and supply stay as they are set."""
+        chosen = next(name for name in PROCEDURES if name == self.procedure.key())
+        before, fresh = self._base, default_plan(chosen)
+        power = replace(before.power, off_between_mountings=fresh.power.off_between_mountings)
+        self._base = replace(fresh, settling=before.settling, power=power)
+        self._show_plan()
         self._judge()
         self.edited.emit()
 
@@ -222,6 +262,7 @@ class PlanForm(Translated):
             "standard": self.tr("Standard"),
             "accelerated": self.tr("Accelerated (demonstration)"),
             "combined": self.tr("Combined zero offset"),
+            "imu-discrete": self.tr("Discrete IMU calibration"),
         }
         own = ("", self.tr("choose a preset …"))
         self.preset.set_choices([own, *((key, names.get(key, key)) for key in self._presets)])
@@ -232,12 +273,29 @@ class PlanForm(Translated):
             self.tr("Scale factor (7.1)"),
             self.tr("Zero offset (7.2)"),
             self.tr("Misalignment (7.3)"),
+            self.tr("Whole turns and positions (2.6.3)"),
         )
         for head, text in zip(self._heads, heads, strict=True):
             head.setText(text)
         self._fill_presets()
         self._name_choices()
         self.preset.set_name(self.tr("Take over a preset"))
+        self.procedure.set_name(self.tr("Procedure"))
+        self.procedure.set_choices(
+            [
+                ("jjf1536-2015", self.tr("JJF 1536-2015: scale factor, zero offset, misalignment")),
+                ("imu-discrete", self.tr("Discrete IMU calibration: gyros and accelerometers")),
+            ]
+        )
+        self.procedure.set_key(self._base.procedure)
+        self.fields["scheme"].set_name(self.tr("Positions"))
+        self.fields["own"].set_name(
+            self.tr("Own positions: where x, y, z point"),
+            self.tr("For example UEN, DES, NUE@30; @ is by how many degrees the table is turned on."),
+        )
+        self.fields["imu_dwell"].set_name(self.tr("Time at each position, s"))
+        self.fields["imu_turns"].set_name(self.tr("Whole turns each way"))
+        self.fields["imu_rate"].set_name(self.tr("Rate, °/s"))
         self.fields["mounting_order"].set_name(self.tr("Order of mountings"))
         self.fields["power"].set_name(self.tr("Power while re-mounting"))
         self.fields["warm_up"].set_name(self.tr("Warm-up, s"))
@@ -264,6 +322,8 @@ class PlanForm(Translated):
             "shortest": self.tr("fewest mountings"),
             "off": self.tr("off"),
             "on": self.tr("stays on"),
+            "8": self.tr("8 (table 2-12)"),
+            "own": self.tr("own list"),
         }
         standard = {
             "schedule": self.tr("standard: 12 positions"),
@@ -272,5 +332,8 @@ class PlanForm(Translated):
         for name, field in self.fields.items():
             if isinstance(field, ChoiceField):
                 field.set_choices(
-                    [(key, standard[name] if key == "standard" else texts[key]) for key in _CHOICES[name]]
+                    [
+                        (key, standard[name] if key == "standard" else texts.get(key, key))
+                        for key in _CHOICES[name]
+                    ]
                 )

@@ -14,11 +14,19 @@ from typing import Literal, cast, get_args
 from ahrs_lab.errors import InputError
 from ahrs_lab.instruments.interfaces import TableLimits
 from ahrs_lab.messages import Message
-from ahrs_lab.procedures.plan import Plan, check_plan, deviations, plan_from_toml, plan_to_toml
+from ahrs_lab.procedures.plan import (
+    Plan,
+    PositionScheme,
+    ProcedureName,
+    check_plan,
+    deviations,
+    plan_from_toml,
+    plan_to_toml,
+)
 
 EntryName = Literal[
     "rates", "order", "dwell", "static", "schedule", "duration", "positions", "turn_rate", "turns", "repeats",
-    "mounting_order", "power", "warm_up",
+    "mounting_order", "power", "warm_up", "scheme", "own", "imu_dwell", "imu_rate", "imu_turns",
 ]  # fmt: skip
 ENTRIES: tuple[EntryName, ...] = get_args(EntryName)
 Fault = Literal["number", "whole", "list"]
@@ -29,11 +37,14 @@ ORDERS = ("pairs", "ascending", "as_listed")
 SCHEDULES = ("standard", "combined", "multi-position")
 MOUNTING_ORDERS = ("shortest", "standard")
 POWERS = ("off", "on")
+SCHEMES: tuple[PositionScheme, ...] = get_args(PositionScheme)
+PROCEDURES: tuple[ProcedureName, ...] = get_args(ProcedureName)
 
 
 @dataclass(frozen=True)
 class PlanView:
-    """What the form says of itself: faults and refusals at their entries, deviations as sentences.
+    """What the form says of itself: faults and refusals at their entries, deviations of a plan that can be
+    run as sentences.
 
     ``plan`` is None where an entry cannot be read; ``refusal`` is one that belongs to no entry of the form.
     """
@@ -66,7 +77,17 @@ def entries_of(plan: Plan) -> dict[EntryName, str]:
         "mounting_order": plan.mounting_order,
         "power": "off" if plan.power.off_between_mountings else "on",
         "warm_up": _text(plan.power.warm_up_s),
+        "scheme": plan.imu.scheme,
+        "own": ", ".join(plan.imu.positions),
+        "imu_dwell": _text(plan.imu.dwell_s),
+        "imu_rate": _text(plan.imu.rate_dps),
+        "imu_turns": str(plan.imu.turns),
     }
+
+
+def default_plan(procedure: ProcedureName) -> Plan:
+    """What a plan of this procedure begins with."""
+    return plan_from_toml({"procedure": procedure})
 
 
 def view(entries: Entries, base: Plan, limits: TableLimits | None = None) -> PlanView:
@@ -77,9 +98,9 @@ def view(entries: Entries, base: Plan, limits: TableLimits | None = None) -> Pla
     try:
         check_plan(plan, limits)
     except InputError as error:
-        culprit = _culprit(entries, error, limits)
+        culprit = _culprit(entries, error, default_plan(base.procedure), limits)
         refusals = {culprit: error.message} if culprit is not None else {}
-        return PlanView(plan, {}, refusals, None if culprit else error.message, deviations(plan))
+        return PlanView(plan, {}, refusals, None if culprit else error.message, ())
     return PlanView(plan, {}, {}, None, deviations(plan))
 
 
@@ -99,13 +120,19 @@ def text_of_plan(plan: Plan) -> str:
     return tomli_w.dumps(plan_to_toml(plan))
 
 
-def _culprit(entries: Entries, error: InputError, limits: TableLimits | None) -> EntryName | None:
-    """The entry that alone, on the standard's plan, is refused in the same way."""
+def _culprit(
+    entries: Entries, error: InputError, usual: Plan, limits: TableLimits | None
+) -> EntryName | None:
+    """The entry that alone, on the procedure's own plan, is refused in the same way."""
     for name in ENTRIES:
-        changed = {**entries_of(Plan()), name: entries[name]}
+        changed = {**entries_of(usual), name: entries[name]}
         if name in ("duration", "positions"):
             changed["schedule"] = entries["schedule"]
-        plan, _ = _read(changed, Plan())
+        if name == "scheme" and entries["scheme"] == "own":
+            continue  # the list is at fault, not that there is one
+        if name == "own":
+            changed["scheme"] = entries["scheme"]
+        plan, _ = _read(changed, usual)
         if plan is None:
             continue
         try:
@@ -150,12 +177,21 @@ def _read(entries: Entries, base: Plan) -> tuple[Plan | None, dict[EntryName, Fa
         positions=whole("positions"),
     )
     angle = replace(base.misalignment, rate_dps=number("turn_rate"), turns=whole("turns"))
+    imu = replace(
+        base.imu,
+        scheme=cast(PositionScheme, entries["scheme"]),
+        positions=_words(entries["own"]) if entries["scheme"] == "own" else (),
+        dwell_s=number("imu_dwell"),
+        rate_dps=number("imu_rate"),
+        turns=whole("imu_turns"),
+    )
     power = replace(base.power, off_between_mountings=entries["power"] == "off", warm_up_s=number("warm_up"))
     plan = replace(
         base,
         scale_factor=scale,
         zero_offset=zero,
         misalignment=angle,
+        imu=imu,
         power=power,
         repeats=whole("repeats"),
         mounting_order=cast('Literal["shortest", "standard"]', entries["mounting_order"]),
@@ -163,9 +199,13 @@ def _read(entries: Entries, base: Plan) -> tuple[Plan | None, dict[EntryName, Fa
     return (None, faults) if faults else (plan, faults)
 
 
-def _rates(text: str) -> tuple[float, ...] | None:
+def _words(text: str) -> tuple[str, ...]:
     parts = text.replace(";", ",").replace("，", ",").replace("；", ",").split(",")
-    values = [_number(part) for part in parts if part.strip()]
+    return tuple(part.strip() for part in parts if part.strip())
+
+
+def _rates(text: str) -> tuple[float, ...] | None:
+    values = [_number(part) for part in _words(text)]
     if not values or any(value is None for value in values):
         return None
     return tuple(value for value in values if value is not None)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
 
-from ahrs_lab.metrology.result import CalibrationResult, ResultWarning
+from ahrs_lab.metrology.result import Reported, ResultWarning
 from ahrs_lab.ui.formatting import number
 from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.widgets.icon_line import IconLine
@@ -37,7 +37,7 @@ class FindingsView(Translated):
         column.addWidget(area)
         self.texts: list[str] = []
 
-    def show_result(self, result: CalibrationResult, raised: Sequence[str] = ()) -> None:
+    def show_result(self, result: Reported, raised: Sequence[str] = ()) -> None:
         """Replace all lines. ``raised``: quantities whose U is the laboratory's capability."""
         while self._list.count() > 1:
             item = self._list.takeAt(0)
@@ -51,9 +51,14 @@ class FindingsView(Translated):
             self._line("good", self.tr("The recording has no defects."))
         for warning in result.warnings:
             self._line("warn", self._sentence(warning))
-        self._head(self.tr("Deviations from the standard"))
+        by_standard = result.procedure == "jjf1536-2015"
+        self._head(
+            self.tr("Deviations from the standard") if by_standard else self.tr("Remarks on the method")
+        )
         if not result.deviations:
-            self._line("good", self.tr("The plan follows JJF 1536-2015."))
+            self._line(
+                "good", self.tr("The plan follows JJF 1536-2015.") if by_standard else self.tr("None.")
+            )
         for deviation in result.deviations:
             self._line("info", said(deviation))
         if raised:

@@ -10,12 +10,14 @@ from ahrs_lab.errors import AhrsLabError
 from ahrs_lab.laboratory.budget_csv import save_budget_csv
 from ahrs_lab.laboratory.evaluation import EvaluationSettings
 from ahrs_lab.laboratory.judgement import Judged
+from ahrs_lab.metrology.imu_result import ImuResult
 from ahrs_lab.recording.samples import Samples
 from ahrs_lab.ui.page import Page
 from ahrs_lab.ui.pages.desk import Desk
 from ahrs_lab.ui.pages.results.budget_view import BudgetView
 from ahrs_lab.ui.pages.results.diagnosis_view import DiagnosisView
 from ahrs_lab.ui.pages.results.findings_view import FindingsView
+from ahrs_lab.ui.pages.results.imu_view import ImuView
 from ahrs_lab.ui.pages.results.plot_view import PlotView
 from ahrs_lab.ui.pages.results.quantities import GROUPS, Group, Quantity, quantities
 from ahrs_lab.ui.pages.results.value_card import ValueCard
@@ -35,6 +37,7 @@ class ResultsPage(Page):
         super().__init__(desk.workspace)
         self._desk = desk
         self._judged: Judged | None = None
+        self._imu: ImuResult | None = None
         self._number = ""
         self._quantities: dict[str, Quantity] = {}
         self._computed: dict[str, Quantity] = {}
@@ -46,6 +49,9 @@ class ResultsPage(Page):
         self._stack.addWidget(self._empty)
         self._stack.addWidget(self._make_waiting())
         self._stack.addWidget(self._make_content())
+        self.imu = ImuView()
+        self.imu.certificate_wanted.connect(lambda: self.workspace.go_to("certificate"))
+        self._stack.addWidget(self.imu)
         desk.evaluating.connect(self._evaluating)
         desk.jobs_changed.connect(self.refresh)
         desk.actor_changed.connect(self._permit)
@@ -141,11 +147,13 @@ class ResultsPage(Page):
     def refresh(self) -> None:
         """Look at the open job's result again."""
         number = self._desk.number
+        judged, self._imu = None, None
         try:
-            judged = self._desk.laboratory.judged(number) if number else None
+            result = self._desk.laboratory.result(number) if number else None
+            self._imu = result if isinstance(result, ImuResult) else None
+            judged = self._desk.laboratory.judged(number) if number and self._imu is None else None
         except AhrsLabError as error:
             self._desk.tell(error)
-            judged = None
         if judged is not None and judged == self._judged and number == self._number:
             self._permit()
             return
@@ -154,8 +162,9 @@ class ResultsPage(Page):
     def show_judged(self, judged: Judged | None) -> None:
         """Everything of the page from one result; None: there is none yet."""
         self._judged = judged
+        self.imu.show_result(self._imu)
         if self._stack.currentIndex() != 1:
-            self._stack.setCurrentIndex(2 if judged is not None else 0)
+            self._stack.setCurrentIndex(self._place())
         if judged is None:
             self._quantities, self._computed = {}, {}
             self._name_empty()
@@ -225,7 +234,11 @@ class ResultsPage(Page):
         if on:
             self._stack.setCurrentIndex(1)
         else:
-            self._stack.setCurrentIndex(2 if self._judged is not None else 0)
+            self._stack.setCurrentIndex(self._place())
+
+    def _place(self) -> int:
+        """Which sheet of the stack what there is belongs on."""
+        return 3 if self._imu is not None else 2 if self._judged is not None else 0
 
     def _recalculate(self, settings: EvaluationSettings) -> None:
         actor = self._desk.ask_actor(self)

@@ -3,6 +3,7 @@ here, and the set is the one that ``imu-calibrate`` makes of the same recording.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from ahrs_lab.analysis.imu_calibration import calibrate_recording
 from ahrs_lab.analysis.imu_report import calibration_report
 from ahrs_lab.analysis.report import Report
+from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.attitude import rotation_about
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import BenchCapability
@@ -18,6 +20,8 @@ from ahrs_lab.metrology.figures_json import noted_capability, with_capability
 from ahrs_lab.metrology.imu_calibration import PositionData, RotationData, case_to_enu
 from ahrs_lab.metrology.imu_result import ImuDwell, ImuResult, ImuTurns
 from ahrs_lab.metrology.result import ResultWarning
+from ahrs_lab.procedures import course
+from ahrs_lab.procedures.plan import plan_from_toml
 from ahrs_lab.procedures.recorded_facts import (
     device_facts,
     noted_deviations,
@@ -42,7 +46,11 @@ def evaluate_imu(recording: Recording, capability: BenchCapability | None, softw
     used = {recorded.segment.name: recorded for recorded in recording.segments if recorded.usable}
     dwells = [_dwell(data, used[_segment(data.name)].segment) for data in made.positions]
     turns = [_turns(data, used[_segment(data.name)].segment) for data in made.rotations]
-    said = [*run_warnings(recording), *(ResultWarning(message) for message in made.calibration.warnings)]
+    said = [
+        *run_warnings(recording),
+        *_missing(recording, set(used)),
+        *(ResultWarning(message) for message in made.calibration.warnings),
+    ]
     return ImuResult(
         procedure=header.procedure,
         bundle_sha256=recording.sha256,
@@ -58,6 +66,28 @@ def evaluate_imu(recording: Recording, capability: BenchCapability | None, softw
         notes=with_capability({**header.notes, **set_aside(recording)}, figures),
         simulated=header.notes.get("simulated") is True,
     )
+
+
+def _missing(recording: Recording, used: set[str]) -> list[ResultWarning]:
+    """What the plan has and the set was made without."""
+    noted = recording.header.notes.get("plan")
+    try:
+        names = course.segment_names(plan_from_toml(noted)) if isinstance(noted, Mapping) else ()
+    except InputError:  # a plan of another version: the recording is evaluated as it is
+        return []
+    left_out = [name for name in names if name not in used]
+    if not left_out:
+        return []
+    return [
+        ResultWarning(
+            Message(
+                "{count} of the plan's {all} segments are missing or cannot be used: {names}.",
+                count=len(left_out),
+                all=len(names),
+                names=", ".join(left_out),
+            )
+        )
+    ]
 
 
 def _dwell(data: PositionData, segment: Segment) -> ImuDwell:

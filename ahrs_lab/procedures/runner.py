@@ -196,11 +196,17 @@ class Runner:
             procedure.close()
         if unsafe and error is None:
             error = InstrumentError(unsafe[0])
-        for split in split_over_power_cycles(self._writer.segments) if self._segments else ():
+        for split in self._split_over_power_cycles():
             self._warnings.append(Warned(split))
             self._tell_at_the_end(Warned(split))
         error = self._write_notes(started, error)
         return self._end(error, cause)
+
+    def _split_over_power_cycles(self) -> tuple[Message, ...]:
+        if not self._segments:
+            return ()
+        off = self._plan is None or self._plan.power.off_between_mountings
+        return split_over_power_cycles(self._writer.segments, off_between_mountings=off)
 
     def _prepare(self, steps: Sequence[Step] | None) -> None:
         bench = self._bench

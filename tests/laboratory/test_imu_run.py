@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -131,7 +132,22 @@ def test_a_run_that_broke_off_goes_on_where_it_stopped(tmp_path: Path, benches: 
     assert tuple(finished) == course.segment_names(plan), "nothing is recorded twice, nothing left out"
     assert mounted == ["y+", "z+", "x-", "z-", "y-"]
     assert isinstance(outcome.result, ImuResult)
+    assert any("over 2 power-ons" in warning.what.text() for warning in outcome.result.warnings)
     assert counted(tmp_path / "out" / "recording") == set(course.segment_names(plan))
+
+
+def test_what_the_plan_has_and_the_recording_lacks_is_named(measured: Path, tmp_path: Path) -> None:
+    bundle = tmp_path / "recording"
+    shutil.copytree(measured / "recording", bundle)
+    toml = (bundle / "recording.toml").read_text(encoding="utf-8")
+    head, *tables = toml.split("[[segment]]")
+    left = [head, *(table for table in tables if "segments/pos_07." not in table)]
+    (bundle / "recording.toml").write_text("[[segment]]".join(left), encoding="utf-8")
+    result = evaluate_bundle(bundle)
+    assert isinstance(result, ImuResult)
+    assert len(result.dwells) == 11
+    said = [warning.what.text() for warning in result.warnings]
+    assert "1 of the plan's 18 segments are missing or cannot be used: pos_07." in said
 
 
 def test_a_wrong_mounting_is_refused_before_it_is_recorded(tmp_path: Path, capsys: Capture) -> None:

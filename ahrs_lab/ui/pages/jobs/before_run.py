@@ -100,15 +100,14 @@ class BeforeRunCard(Card):
         if not found.violations and "standards" not in found.missing:
             lines.append(IconLine("good", self.tr("The standards satisfy clause 6.")))
         if found.plan_ok:
-            text = (
-                self.tr(
+            if not found.by_standard:
+                text = self.tr("The plan can be run.")
+            elif found.deviations:
+                text = self.tr(
                     "The plan can be run; what leaves the standard goes into the record and the certificate."
                 )
-                if found.deviations
-                else self.tr("The plan follows JJF 1536-2015.")
-                if found.by_standard
-                else self.tr("The plan can be run.")
-            )
+            else:
+                text = self.tr("The plan follows JJF 1536-2015.")
             lines.append(IconLine("good", text))
         return lines
 

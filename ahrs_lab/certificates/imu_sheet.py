@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,8 +52,8 @@ from ahrs_lab.certificates.result_tables import (
 )
 from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol
 from ahrs_lab.errors import InputError
-from ahrs_lab.metrology.conditions import clause6_violations
-from ahrs_lab.metrology.figures_json import noted_capability, stated_figures
+from ahrs_lab.metrology.conditions import BenchCapability, clause6_violations
+from ahrs_lab.metrology.figures_json import noted_capability
 from ahrs_lab.metrology.imu_calibration import Coefficients, ImuCalibration, Quality
 from ahrs_lab.metrology.imu_result import ImuDwell, ImuResult
 from ahrs_lab.metrology.rounding import format_grouped, round_to_place, round_to_uncertainty
@@ -267,7 +268,7 @@ def _statement(result: ImuResult, quality: Quality, job: JobSheet, writer: Resul
     if quality.bench is None:
         words.append(imu_wording.WITHOUT_BENCH)
     else:
-        words.append(_with_bench(quality))
+        words.append(_with_bench(result, quality))
     if job.rounding == "up":
         words.append(wording.ROUNDED_UP)
     words += [imu_wording.MEANING, _traceability(result, quality, job)]
@@ -275,11 +276,13 @@ def _statement(result: ImuResult, quality: Quality, job: JobSheet, writer: Resul
         yield Paragraph(writer.words(one), together=True, kept=number < len(words))
 
 
-def _with_bench(quality: Quality) -> Words:
+def _with_bench(result: ImuResult, quality: Quality) -> Words:
+    """Each figure with the certificate that states it, or the star of an assumption."""
     said: list[tuple[str, str]] = []
     for key, value in quality.bench_figures.items():
         name, unit = imu_wording.FIGURES.get(key, (Words(key, key), ""))
-        number = _small(value) + unit
+        certificate = _certificate(result, key)
+        number = f"{_small(value)}{unit} ({certificate})" if certificate else f"{_small(value)}{unit} *"
         said.append((f"{name.zh} {number}", f"{name.en} {number}"))
     return Words(
         imu_wording.WITH_BENCH.zh.format(figures="，".join(zh for zh, _ in said)),
@@ -301,8 +304,19 @@ def _traceability(result: ImuResult, quality: Quality, job: JobSheet) -> Words:
         return wording.DEMONSTRATION_NOT_TRACEABLE
     if clause6_violations(job.standards, on_date=job.calibrated):
         return wording.NOT_TRACEABLE
-    stated = set(stated_figures(noted_capability(result.notes)))
-    return imu_wording.TRACED if quality.bench is not None and stated else imu_wording.ASSUMED
+    known = [bool(_certificate(result, key)) for key in quality.bench_figures]
+    if quality.bench is None or not any(known):
+        return imu_wording.ASSUMED
+    return imu_wording.TRACED if all(known) else imu_wording.TRACED_PARTLY
+
+
+def _certificate(result: ImuResult, key: str) -> str:
+    """The number of the certificate that states this figure of the bench; "" for an assumption, which gravity
+    always is: the set does not say who measured it."""
+    capability = noted_capability(result.notes)
+    if capability is None or key not in {field.name for field in fields(BenchCapability)}:
+        return ""
+    return capability.figure(key).certificate
 
 
 def condition_fields(result: ImuResult, language: CertificateLanguage) -> Iterator[Field]:

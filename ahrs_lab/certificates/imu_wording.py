@@ -68,9 +68,11 @@ UNCERTAINTY = Words(
     "covariances of the coefficients are in the result file.",
 )
 WITH_BENCH = Words(
-    "u_{{c}} 由本次记录中传感器的噪声与漂移，以及测量设备的误差合成。设备各项的标准不确定度：{figures}。",
+    "u_{{c}} 由本次记录中传感器的噪声与漂移，以及测量设备的误差合成。设备各项的标准不确定度（括号内为证"
+    "书编号，* 为假定值，无证书支持）：{figures}。",
     "u_{{c}} combines the sensors' noise and drift in this recording with the errors of the bench. "
-    "Standard uncertainties of the bench: {figures}.",
+    "Standard uncertainties of the bench (in brackets the certificate, * assumed and not supported by "
+    "one): {figures}.",
 )
 WITHOUT_BENCH = Words(
     "u_{c} 只含本次记录中传感器的噪声与漂移，不含测量设备的误差。",
@@ -85,6 +87,11 @@ ASSUMED = Words(
     "测量结果的溯源性未得到证明：测量设备的误差为假定值，无证书支持。",
     "Traceability of the results is not shown: the errors of the bench are assumed figures, which no "
     "certificate supports.",
+)
+TRACED_PARTLY = Words(
+    "测量结果通过上列测量标准溯源；标 * 的设备误差为假定值，由其引起的部分的溯源性未得到证明。",
+    "Results are traceable through the measurement standards listed above; errors of the bench marked "
+    "* are assumed, and traceability is not shown for what comes from them.",
 )
 TRACED = Words(
     "测量结果通过上列测量标准溯源。", "Results are traceable through the measurement standards listed above."

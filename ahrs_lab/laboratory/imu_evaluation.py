@@ -42,7 +42,7 @@ def evaluate_imu(recording: Recording, capability: BenchCapability | None, softw
     """
     header = recording.header
     figures = capability or noted_capability(header.notes) or BenchCapability()
-    made = calibrate_recording(recording, capability=figures, software=software)
+    made = calibrate_recording(recording, capability=capability, software=software)
     used = {recorded.segment.name: recorded for recorded in recording.segments if recorded.usable}
     dwells = [_dwell(data, used[_segment(data.name)].segment) for data in made.positions]
     turns = [_turns(data, used[_segment(data.name)].segment) for data in made.rotations]

@@ -18,8 +18,11 @@ from ahrs_lab.certificates.richtext import number_of
 from ahrs_lab.certificates.signing import sign_certificate
 from ahrs_lab.certificates.verify import verify_pdf
 from ahrs_lab.errors import InputError
+from ahrs_lab.metrology.capability import capability_of
+from ahrs_lab.metrology.figures_json import with_capability
 from ahrs_lab.metrology.imu_calibration import Coefficients
 from ahrs_lab.metrology.imu_result import ImuResult
+from ahrs_lab.metrology.stated_figures import StatedFigure
 from tests.certificates.imu_sample import COEFFICIENTS, sample_imu_result
 from tests.certificates.pdf_text import lines, spans, whole_text
 from tests.certificates.test_layout import outside, overlapping
@@ -115,7 +118,7 @@ def test_the_sheet_says_formula_direction_conditions_and_what_was_done(
         "about X, Y, Z: ±10 turns each, 100 °/s",
         "local gravity (9.80146 m/s2)",
         "latitude 39.9042°",
-        "north 30″, level of the seat 10″, sampling time (relative) 5.0 × 10−7",
+        "north 30″ *, level of the seat 10″ *, sampling time (relative) 5.0 × 10−7 *",
         "the errors of the bench are assumed figures",
         "The dwell is shorter",
         "pos_03: The unit was warm",
@@ -185,6 +188,25 @@ def test_without_the_benchs_share_the_sheet_says_what_u_leaves_out(
     printed = lines(certificate_pdf(alone, job, tmp_path / "s.pdf", "en"))
     assert "not of the bench's errors" in " ".join(printed)
     assert rows_below(printed, "1  Gyros")[0] == "X 1.002 335 0.000 060 0.003 09 0.000 60"
+
+
+def test_traceability_is_said_as_far_as_certificates_state_the_bench(
+    tmp_path: Path, result: ImuResult, job: JobSheet
+) -> None:
+    stated = replace(job.standards[0], figures=(StatedFigure("level_arcsec", 20.0, "arcsec", 2.0),))
+    standards = (stated, *job.standards[1:])
+    capability = capability_of(standards, job.calibrated)
+    of_job = replace(job, standards=standards, capability=capability)
+    known = replace(result, notes=with_capability(result.notes, capability))
+    text = whole_text(certificate_pdf(known, of_job, tmp_path / "s.pdf", "en"))
+    assert "north 30″ *, level of the seat 10″ (NIM-26-0815), sampling time" in text
+    assert "errors of the bench marked * are assumed" in text
+    quality = known.calibration.quality
+    assert quality is not None
+    level_alone = replace(quality, bench_figures={"level_arcsec": 10.0})
+    whole = replace(known, calibration=replace(known.calibration, quality=level_alone))
+    text = whole_text(certificate_pdf(whole, of_job, tmp_path / "w.pdf", "en"))
+    assert "Results are traceable through the measurement standards listed above." in text
 
 
 def test_a_job_that_names_its_own_procedure_is_followed(

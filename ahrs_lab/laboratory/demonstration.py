@@ -16,7 +16,7 @@ from ahrs_lab.errors import AhrsLabError, InputError
 from ahrs_lab.laboratory import certification
 from ahrs_lab.laboratory.benches import bench_presets, plan_presets
 from ahrs_lab.laboratory.evaluation import OutputFolder, write_files
-from ahrs_lab.laboratory.headless import heard_by, load_evaluation, wait_for
+from ahrs_lab.laboratory.headless import wait_for
 from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.metrology.conformity import DecisionRule
 from ahrs_lab.metrology.figures_json import figures_text
@@ -24,7 +24,6 @@ from ahrs_lab.metrology.limits import Limit
 from ahrs_lab.metrology.requirements import Requirements, requirements_to_json
 from ahrs_lab.metrology.stated_figures import StatedFigure
 from ahrs_lab.recording.folder_lock import FolderLock
-from ahrs_lab.recording.read_ahead import ReadAhead
 from ahrs_lab.records.rows import (
     CustomerRow,
     DeviceRow,
@@ -255,10 +254,9 @@ def run_demonstration(
             with OutputFolder(out):
                 _put_aside(out)
             number = laboratory.create_job(draft, actor, out)
-        with ReadAhead(laboratory.bundle(number)) as ahead:
-            _measure(laboratory, number, actor, speed, heard_by(ahead, on_event))
-            on_stage("evaluating")
-            result = laboratory.finish_run(number, actor, ahead)
+        _measure(laboratory, number, actor, speed, on_event)
+        on_stage("evaluating")
+        result = laboratory.finish_run(number, actor)
         files = {"recording": laboratory.bundle(number), **write_files(result, out)}
         files["original_record"] = laboratory.original_record(number)
         on_stage("certificate and signatures")
@@ -286,7 +284,6 @@ def _measure(
         number, actor, on_event=on_event, on_samples=lambda _samples: None, speed=speed, ask=False
     )
     run.start()
-    load_evaluation()
     try:
         wait_for(run)
     except AhrsLabError as error:

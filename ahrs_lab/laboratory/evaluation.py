@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import ahrs_lab
 from ahrs_lab.errors import InputError, MachineError
@@ -14,9 +14,6 @@ from ahrs_lab.laboratory.results import AnyResult, from_json, to_json
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.imu_result import PROCEDURE as IMU_PROCEDURE
 from ahrs_lab.metrology.imu_result import ImuResult
-
-if TYPE_CHECKING:
-    from ahrs_lab.recording.read_ahead import ReadAhead
 
 SOFTWARE = f"ahrs-lab {ahrs_lab.__version__}"
 MAXIMAL_RESULT_BYTES = 64 * 2**20
@@ -38,18 +35,16 @@ def evaluate_bundle(
     bundle: Path,
     settings: EvaluationSettings | None = None,
     capability: BenchCapability | None = None,
-    ahead: ReadAhead | None = None,
 ) -> AnyResult:
     """Read ``bundle`` (folder or ``.ahrsrec``) with all its checks and reduce it by the procedure it was
     recorded for; ``settings`` are of JJF 1536.
 
-    ``capability``: the bench's figures; None: those that the recording names, else clause 6's own. ``ahead``
-    read its segments while it was being recorded.
+    ``capability``: the bench's figures; None: those that the recording names, else clause 6's own.
     """
     from ahrs_lab.procedures.reduction import reduce_recording
     from ahrs_lab.recording.read import read_bundle
 
-    recording = read_bundle(bundle, ahead)
+    recording = read_bundle(bundle)
     if recording.header.procedure == IMU_PROCEDURE:
         from ahrs_lab.laboratory.imu_evaluation import evaluate_imu
 

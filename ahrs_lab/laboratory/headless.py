@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 
 from ahrs_lab.errors import AbortedError, AhrsLabError
@@ -16,9 +15,8 @@ from ahrs_lab.laboratory.live_run import LiveRun
 from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import BenchCapability
-from ahrs_lab.procedures.events import Event, SegmentFinished
+from ahrs_lab.procedures.events import Event
 from ahrs_lab.procedures.plan import Plan, check_plan
-from ahrs_lab.recording.read_ahead import ReadAhead
 from ahrs_lab.recording.samples import Samples
 
 _LOOK_S = 0.2
@@ -66,37 +64,14 @@ def run_plan(
     check_plan(plan, bench.table.limits)
     bundle = out / "recording"
     header = recording_header(bench, plan, capability=capability)
-    with ReadAhead(bundle) as ahead:
-        listener = heard_by(ahead, on_event)
-        run = LiveRun(bench, plan, bundle, header, on_event=listener, on_samples=_unheard, ask=False)
-        if again_from:
-            run.start_from(again_from, reason)
-        else:
-            run.start()
-        load_evaluation()
-        wait_for(run)
-        result = evaluate_bundle(bundle, settings, capability, ahead)
+    run = LiveRun(bench, plan, bundle, header, on_event=on_event, on_samples=_unheard, ask=False)
+    if again_from:
+        run.start_from(again_from, reason)
+    else:
+        run.start()
+    wait_for(run)
+    result = evaluate_bundle(bundle, settings, capability)
     return HeadlessOutcome(bundle, result, write_files(result, out))
-
-
-def heard_by(ahead: ReadAhead, on_event: Callable[[Event], None]) -> Callable[[Event], None]:
-    """``on_event``, and ``ahead`` hears of each sealed segment."""
-
-    def tell(event: Event) -> None:
-        if isinstance(event, SegmentFinished):
-            ahead.take(event.segment)
-        on_event(event)
-
-    return tell
-
-
-def load_evaluation() -> None:
-    """Import what the evaluation needs while the bench is at work."""
-    for module in ("scipy.optimize", "ahrs_lab.procedures.reduction", "ahrs_lab.certificates.plots"):
-        import_module(module)
-    from ahrs_lab.certificates.fonts import register_fonts
-
-    register_fonts()
 
 
 def wait_for(run: LiveRun) -> None:

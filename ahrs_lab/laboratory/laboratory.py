@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from ahrs_lab.certificates.verify import VerificationReport
     from ahrs_lab.laboratory.live_run import LiveRun
     from ahrs_lab.procedures.events import Event
-    from ahrs_lab.recording.read_ahead import ReadAhead
 
 
 class Laboratory:
@@ -211,10 +210,10 @@ class Laboratory:
 
         take_up(self, number, actor, reason)
 
-    def finish_run(self, number: str, actor: SignedIn, ahead: ReadAhead | None = None) -> AnyResult:
-        """Evaluate what the job's run recorded (``ahead`` has read of it already), keep the result, and call
+    def finish_run(self, number: str, actor: SignedIn) -> AnyResult:
+        """Evaluate what the job's run recorded, keep the result, and call
         the job measured."""
-        result = self.recalculate(number, EvaluationSettings(), actor, ahead)
+        result = self.recalculate(number, EvaluationSettings(), actor)
         if self.job(number).state == "running":
             self.records.jobs.move(number, "measured", actor)
         return result
@@ -225,16 +224,14 @@ class Laboratory:
         if self.job(number).state == "running":
             self.records.jobs.move(number, "ready", actor)
 
-    def recalculate(
-        self, number: str, settings: EvaluationSettings, actor: SignedIn, ahead: ReadAhead | None = None
-    ) -> AnyResult:
+    def recalculate(self, number: str, settings: EvaluationSettings, actor: SignedIn) -> AnyResult:
         """Reduce the job's recording again, as its customer asked; the result becomes the current one,
         earlier ones stay."""
         job = self.job(number)
         capability = job_sheets.capability(job)
         asked = requirements_from_json(job.limits_json)
         settings = replace(settings, repeatability=asked.repeatability)
-        result = evaluate_bundle(self.bundle(number), settings, capability, ahead)
+        result = evaluate_bundle(self.bundle(number), settings, capability)
         self.records.jobs.add_result(
             number, json.dumps(to_json(result), ensure_ascii=False, allow_nan=False), actor
         )

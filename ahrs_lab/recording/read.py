@@ -10,7 +10,6 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,9 +30,6 @@ from ahrs_lab.recording.raw_segment import RawSegment, SegmentFileError
 from ahrs_lab.recording.samples import Samples
 from ahrs_lab.recording.segment import DeviceDescription, RecordingHeader, Segment
 from ahrs_lab.recording.table_check import check_table
-
-if TYPE_CHECKING:
-    from ahrs_lab.recording.read_ahead import ReadAhead
 
 
 @dataclass(frozen=True)
@@ -84,16 +80,14 @@ class Recording:
         return (*self.general, *(finding for segment in self.segments for finding in segment.findings))
 
 
-def read_bundle(path: Path, ahead: ReadAhead | None = None) -> Recording:
+def read_bundle(path: Path) -> Recording:
     """The recording in a folder (or its ``recording.toml``) or an ``.ahrsrec`` archive.
-
-    ``ahead`` has read segments of it already, while it was being recorded.
 
     Raises InputError for what is no recording, MachineError for what the machine does not let us read.
     """
     source = open_source(path)
     try:
-        return _read(source, ahead)
+        return _read(source)
     except OSError as error:
         raise MachineError(
             "{path} cannot be read: {error}", path=path, error=error.strerror or error
@@ -144,7 +138,7 @@ def _check_rows(
         check_table(segment, rows, device.rate_unit, found)
 
 
-def _read(source: BundleSource, ahead: ReadAhead | None) -> Recording:
+def _read(source: BundleSource) -> Recording:
     header, segments = _header(source)
     if not segments:
         raise InputError("{where} lists no segment: nothing was recorded.", where=source.path / HEADER_FILE)
@@ -158,10 +152,7 @@ def _read(source: BundleSource, ahead: ReadAhead | None) -> Recording:
     general = missing_segments(segments) if header.procedure == PROCEDURE else ()
     with ThreadPoolExecutor(max_workers=1, thread_name_prefix="recording-hash") as pool:
         digest = pool.submit(_digest, source.path, [segment.file for segment in segments])
-        recorded = tuple(
-            (ahead.get(segment, header) if ahead else None) or read_segment(source, segment, header)
-            for segment in segments
-        )
+        recorded = tuple(_read_segment(source, segment, header) for segment in segments)
         return Recording(header, recorded, digest.result(), general, source.path)
 
 
@@ -181,8 +172,7 @@ def _header(source: BundleSource) -> tuple[RecordingHeader, tuple[Segment, ...]]
     return parse(data, str(source.path / HEADER_FILE))
 
 
-def read_segment(source: BundleSource, segment: Segment, header: RecordingHeader) -> RecordedSegment:
-    """One segment's file with all its checks."""
+def _read_segment(source: BundleSource, segment: Segment, header: RecordingHeader) -> RecordedSegment:
     reader: Callable[[Path | bytes], RawSegment]
     reader = read_parquet if segment.file.lower().endswith(".parquet") else _read_csv
     try:

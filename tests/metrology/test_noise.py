@@ -6,6 +6,9 @@ import math
 
 import numpy as np
 import pytest
+import scipy
+from hypothesis import given
+from hypothesis import strategies as st
 
 from ahrs_lab.metrology.uncertainty.noise import (
     NoiseModel,
@@ -14,6 +17,7 @@ from ahrs_lab.metrology.uncertainty.noise import (
     drift_variance,
     fit_noise,
     neighbour_variance,
+    nonnegative_solution,
     standard_error,
 )
 
@@ -200,3 +204,14 @@ def test_drift_is_known_as_well_as_its_coefficients() -> None:
         variance, dof = drift_variance(np.array([1.0, -1.0]), np.arange(2.0), np.ones(2), known)
         assert dof == pytest.approx(100.0)
         assert variance == pytest.approx(known.flicker**2 * 4.0 * math.log(2.0) / math.pi)
+
+
+@given(st.integers(0, 10_000))
+def test_the_non_negative_solution_is_scipys(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    columns = rng.random((12, int(rng.integers(1, 5)))) + 0.1
+    target = columns @ rng.normal(0.2, 1.0, columns.shape[1]) + 0.1 * rng.standard_normal(12)
+    solution, distance = nonnegative_solution(columns, target)
+    expected, least = scipy.optimize.nnls(columns, target)
+    assert distance == pytest.approx(least, rel=1e-9)
+    assert solution == pytest.approx(expected, abs=1e-7)

@@ -12,8 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-_GIMBAL_LOCK_COSINE = 1e-9
-"""Below this cosine of pitch, heading and roll turn about the same line: roll is then called zero."""
+_GIMBAL_LOCK_COSINE = 1e-13
+"""Below this cosine of pitch, what is left of heading is rounding: roll is then called zero. Calling it zero
+changes the attitude by no more than this times π, so the matrix still comes back."""
+_STEEP_COSINE = 1e-2
+"""Below it roll is taken so that heading and roll together give the matrix back to rounding."""
 
 
 def rotation_about(axis: int, angle_rad: ArrayLike) -> Array:
@@ -69,7 +72,10 @@ def attitude_angles_deg(C_bn: Array) -> tuple[Array, Array, Array]:
     """Heading [0, 360), pitch and roll in degrees, each of shape (...), of C_bn with shape (..., 3, 3)
     (2-67).
 
-    At pitch ±90° heading and roll cannot be told apart; roll is 0 there.
+    At pitch ±90° heading and roll cannot be told apart; roll is 0 there. Beside it heading and roll are each
+    as uncertain as rounding over the cosine of pitch, but together they still give C_bn to rounding: roll is
+    taken from the matrix turned back by that heading, which is R_x(pitch)·R_y(roll), whose first row is (cos
+    roll, 0, sin roll).
     """
     forward, right = np.moveaxis(C_bn[..., :, 1], -1, 0), np.moveaxis(C_bn[..., :, 0], -1, 0)
     return angles_of_axes_deg(forward, right, C_bn[..., 2, 2])
@@ -83,9 +89,13 @@ def angles_of_axes_deg(forward: Array, right: Array, up_of_up: Array) -> tuple[A
     pitch = np.arctan2(forward[2], cosine)
     roll = np.arctan2(-right[2], up_of_up)
     heading = np.arctan2(forward[0], forward[1])
-    if np.any(locked):
-        roll = np.where(locked, 0.0, roll)
+    if np.any(near := cosine < _STEEP_COSINE):
         heading = np.where(locked, np.arctan2(-right[1], right[0]), heading)
+        east, north = np.cos(heading), -np.sin(heading)
+        up_east = right[1] * forward[2] - right[2] * forward[1]
+        up_north = right[2] * forward[0] - right[0] * forward[2]
+        steep = np.arctan2(east * up_east + north * up_north, east * right[0] + north * right[1])
+        roll = np.where(locked, 0.0, np.where(near, steep, roll))
     degrees = np.degrees(heading)
     degrees = np.where(degrees < 0.0, degrees + 360.0, degrees)
     # a tiny negative angle would round up to 360 itself

@@ -29,6 +29,7 @@ def commands() -> Sequence[Command]:
         compensate,
         error_propagation,
         imu_calibrate,
+        installation,
         navigate,
     )
 
@@ -39,4 +40,5 @@ def commands() -> Sequence[Command]:
         navigate,
         error_propagation,
         align,
+        installation,
     )

@@ -14,6 +14,7 @@ def analyses() -> tuple[AnalysisKind, ...]:
         compensation,
         error_propagation,
         imu_calibration,
+        installation,
         navigation,
     )
 
@@ -24,4 +25,6 @@ def analyses() -> tuple[AnalysisKind, ...]:
         navigation.KIND,
         error_propagation.KIND,
         alignment.KIND,
+        installation.CALIBRATE,
+        installation.COMPENSATE,
     )

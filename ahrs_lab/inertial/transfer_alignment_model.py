@@ -5,7 +5,7 @@ error is always the unit's minus the true: δv, δL, δλ; ε, ∇ are what a se
 relative scale errors. Then, with δω_in = δω_ie + δω_en,
 
     φ̇ = −ω_in×φ + δω_in − C(ε + diag(ω)δK_g)
-    δv̇ = f×φ − (2ω_ie + ω_en)×δv − (2δω_ie + δω_en)×v + C(∇ + diag(f)δK_a)
+    δv̇ = f×φ − (2ω_ie + ω_en)×δv − (2δω_ie + δω_en)×v + δg + C(∇ + diag(f)δK_a)
 
 Differences from the printed text, found when deriving it:
 
@@ -17,8 +17,7 @@ Differences from the printed text, found when deriving it:
 - (2-158): the element F₁₁(1,2) is 2ω_ie sin L + v_x tan L/(R_N + h); printed is v_y.
 - (2-157): C_b^n is the transpose of C_n^b.
 - (2-160): H's last row lacks the azimuth error that φ itself makes: (−tan θ sin ψ, −tan θ cos ψ, 1), the
-  first row of H₁ in (2-174). Without it azimuth misalignment and azimuth offset could not be told apart by
-  any manoeuvre.
+  first row of H₁ in (2-174). Without it the azimuth compared would tell nothing of φ.
 - (2-160): a constant difference of azimuth belongs to a level carrier. For a unit turned about its own z
   axis it is AMB·cos γ/cos θ, and a unit not mounted level shows its mounting in azimuth when the carrier
   banks. So azimuth is compared only while the carrier flies nearly level, as the text says in words (“in
@@ -41,7 +40,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ahrs_lab.inertial.attitude import skew
-from ahrs_lab.inertial.earth import EARTH_RATE_RADPS, meridian_radius_m, transverse_radius_m
+from ahrs_lab.inertial.earth import (
+    EARTH_RATE_RADPS,
+    meridian_radius_m,
+    normal_gravity_mps2,
+    transverse_radius_m,
+)
 from ahrs_lab.inertial.transfer_alignment_motion import Window, frame_rates
 
 Array = NDArray[np.float64]
@@ -123,6 +127,10 @@ def error_matrix(window: Window, latitude: Array, altitude: Array) -> Array:
     F[:, VELOCITY, PHI] = skew(window.force)
     F[:, VELOCITY, VELOCITY] = skew(v) @ over_by_velocity - skew(2 * earth + over)
     F[:, VELOCITY, LATITUDE] = np.cross(v, 2 * earth_by_latitude + over_by_latitude)
+    by_latitude = normal_gravity_mps2(degrees + 0.01, altitude) - normal_gravity_mps2(
+        degrees - 0.01, altitude
+    )
+    F[:, 5, LATITUDE] -= by_latitude / np.radians(0.02)
     F[:, VELOCITY, ACCEL_BIAS] = window.C
     F[:, VELOCITY, ACCEL_SCALE] = window.C_force
     F[:, LATITUDE, 4] = 1 / along_north

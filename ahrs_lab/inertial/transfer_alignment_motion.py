@@ -38,16 +38,18 @@ class Increments:
 
     def compensated(self) -> Increments:
         """Rotation vectors (coning) and velocity increments along the axes at each interval's start
-        (rotation, sculling), from two samples each."""
+        (rotation to second order, sculling), from two samples each."""
         angle, velocity = self.angle_rad, self.velocity_mps
         angle0 = np.concatenate([np.zeros_like(angle[:, :1]), angle[:, :-1]], axis=1)
         velocity0 = np.concatenate([np.zeros_like(velocity[:, :1]), velocity[:, :-1]], axis=1)
+        turned = np.cross(angle, velocity)
         return Increments(
             self.t_s,
             self.interval_s,
             angle + np.cross(angle0, angle) / 12,
             velocity
-            + np.cross(angle, velocity) / 2
+            + turned / 2
+            + np.cross(angle, turned) / 6
             + (np.cross(angle0, velocity) + np.cross(velocity0, angle)) / 12,
         )
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
-from ahrs_lab.recording.samples import ANGLE, ATTITUDE, GYRO, Array
+from ahrs_lab.recording.samples import ANGLE, ATTITUDE, GYRO, POSITION, VELOCITY_ENU, Array
 
 MAX_ROWS = 50_000_000
 MAX_COLUMNS = 256
@@ -43,11 +43,12 @@ class RawSegment:
 
 
 def required_columns(names: Sequence[str]) -> tuple[str, ...]:
-    """The columns without which a row is worth nothing: the time, and the rate or else the angle output.
+    """The columns without which a row is worth nothing: the time, and the rate or else the angle output
+    or what a reference shows (velocity, position).
 
     Raises :class:`SegmentFileError` where they are not all there.
     """
-    for needed in (GYRO, ANGLE, ATTITUDE):
+    for needed in (GYRO, ANGLE, ATTITUDE, VELOCITY_ENU, POSITION):
         if all(name in names for name in needed) and "t_s" in names:
             return ("t_s", *needed)
     missing = [name for name in ("t_s", *GYRO) if name not in names]

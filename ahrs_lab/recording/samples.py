@@ -22,6 +22,8 @@ GYRO = tuple(f"gyro_{axis}" for axis in AXES)
 ACCEL = tuple(f"accel_{axis}" for axis in AXES)
 ANGLE = tuple(f"angle_{axis}" for axis in AXES)
 ATTITUDE = ("heading_deg", "pitch_deg", "roll_deg")
+VELOCITY_ENU = ("ve_mps", "vn_mps", "vu_mps")
+POSITION = ("latitude_deg", "longitude_deg", "altitude_m")
 
 GAP_STEPS = 1.5
 """A step in time of more sample intervals than this is a gap."""

@@ -31,6 +31,7 @@ def commands() -> Sequence[Command]:
         imu_calibrate,
         installation,
         navigate,
+        transfer_align,
     )
 
     return (
@@ -40,5 +41,6 @@ def commands() -> Sequence[Command]:
         navigate,
         error_propagation,
         align,
+        transfer_align,
         installation,
     )

@@ -16,6 +16,7 @@ def analyses() -> tuple[AnalysisKind, ...]:
         imu_calibration,
         installation,
         navigation,
+        transfer_alignment,
     )
 
     return (
@@ -25,6 +26,7 @@ def analyses() -> tuple[AnalysisKind, ...]:
         navigation.KIND,
         error_propagation.KIND,
         alignment.KIND,
+        transfer_alignment.TRANSFER_ALIGNMENT,
         installation.CALIBRATE,
         installation.COMPENSATE,
     )

@@ -1,0 +1,328 @@
+"""Transfer alignment on recordings: a reference's velocity, position and attitude, and a unit's gyros and
+accelerometers on the same carrier. The mathematics is :mod:`ahrs_lab.inertial.transfer_alignment`.
+
+The unit is navigated here. Its recording's ``[initial]`` says where it begins; what that leaves out, and all
+of it where there is none, is copied from the reference (one-shot transfer): then its misalignment at the
+start is how its case stands against the reference's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation, Slerp
+
+from ahrs_lab.analysis.inertial_record import InertialRecord, records
+from ahrs_lab.analysis.transfer_alignment_result import TransferResult
+from ahrs_lab.errors import InputError
+from ahrs_lab.inertial.attitude import attitude_matrix
+from ahrs_lab.inertial.transfer_alignment import (
+    Assumptions,
+    Reference,
+    Start,
+    align,
+    carried_over,
+)
+from ahrs_lab.inertial.transfer_alignment_model import METHODS, MethodName
+from ahrs_lab.inertial.transfer_alignment_motion import Increments, Motion
+from ahrs_lab.messages import Message
+from ahrs_lab.recording.read import RecordedSegment, Recording
+from ahrs_lab.recording.samples import ATTITUDE, POSITION, VELOCITY_ENU
+
+Array = NDArray[np.float64]
+
+LEAST_COMPARISONS = 10
+LONGEST_GAP_S = 2.0
+POLAR_LATITUDE_DEG = 85.0
+
+
+@dataclass(frozen=True)
+class TransferSettings:
+    """``every_s``: least time between two comparisons; ``lever_m``: the unit's place from the reference's
+    along the unit's axes."""
+
+    method: MethodName
+    assumed: Assumptions
+    every_s: float = 1.0
+    lever_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    reference_segment: str | None = None
+    unit_segment: str | None = None
+
+
+@dataclass(frozen=True)
+class _Track:
+    """The reference's m rows: ``state`` (m, 6) is velocity, latitude and longitude rad, altitude."""
+
+    t_s: Array
+    state: Array
+    attitude: Slerp | None
+
+    def at(self, t_s: Array) -> tuple[Array, Array | None]:
+        """Interpolated; t_s (n,) within the record, to half a sample of the unit."""
+        inside = np.clip(t_s, self.t_s[0], self.t_s[-1])
+        state = np.column_stack([np.interp(inside, self.t_s, column) for column in self.state.T])
+        return state, None if self.attitude is None else self.attitude(inside).as_matrix()
+
+
+def transfer_align(reference: Recording, unit: Recording, settings: TransferSettings) -> TransferResult:
+    """Align the unit of one recording against the reference of the other; raises InputError."""
+    record = records(unit, settings.unit_segment)[0].needed_si()
+    record.needed_force()
+    warnings = [*record.warnings, *_gaps(record)]
+    track, found = _track(reference, record, settings)
+    warnings += found
+    increments = Increments(
+        record.t_s,
+        record.interval_s,
+        record.angle_increments_rad[np.newaxis],
+        record.velocity_increments_mps()[np.newaxis],
+    )
+    instants = _instants(record, track, settings.every_s)
+    start = _start(record, track, settings)
+    state, attitude = track.at(instants)
+    compared = Reference(
+        instants,
+        state[np.newaxis, :, :3],
+        state[np.newaxis, :, 3],
+        state[np.newaxis, :, 4],
+        state[np.newaxis, :, 5],
+        None if attitude is None else attitude[np.newaxis],
+    )
+    lever = np.array(settings.lever_m) if any(settings.lever_m) else None
+    aligned = align(increments, compared, start, settings.method, settings.assumed, lever)
+    if not np.all(np.isfinite(aligned.misalignment)):
+        raise InputError(
+            "The alignment ran out of all bounds: are both recordings of the same carrier, their columns "
+            "in the units of recording.toml, and the unit's axes x right, y forward, z up?"
+        )
+    return TransferResult(aligned, settings.assumed, start.copied, compared, tuple(warnings))
+
+
+def _gaps(record: InertialRecord) -> list[Message]:
+    if not len(record.gaps):
+        return []
+    longest = record.gaps[np.argmax(record.interval_s[record.gaps])]
+    if record.interval_s[longest] > LONGEST_GAP_S:
+        raise InputError(
+            "{file}: samples are missing for {gap} s before t = {time} s. A unit cannot be navigated "
+            "through that: cut the recording there.",
+            file=record.segment.file,
+            gap=f"{record.interval_s[longest]:.3f}",
+            time=f"{record.t_s[longest]:.3f}",
+        )
+    return [
+        Message(
+            "{file}: {count} gaps in the unit's samples were bridged by the mean rate across them.",
+            file=record.segment.file,
+            count=len(record.gaps),
+        )
+    ]
+
+
+def _track(
+    reference: Recording, record: InertialRecord, settings: TransferSettings
+) -> tuple[_Track, list[Message]]:
+    """The reference's columns; what it lacks and the unit's ``[initial]`` or the site has, from there."""
+    segment = _reference_segment(reference, settings)
+    samples, warnings = segment.samples, [finding.placed for finding in segment.findings]
+    needed = [*(POSITION if settings.method == "position" else VELOCITY_ENU)]
+    if METHODS[settings.method].needs_attitude:
+        needed += ATTITUDE
+    missing = [name for name in needed if name not in samples]
+    if missing:
+        raise InputError(
+            "{file} of the reference has no column {missing}, which the method {method} compares.",
+            file=segment.segment.file,
+            missing=", ".join(missing),
+            method=settings.method,
+        )
+    used = [name for name in (*VELOCITY_ENU, *POSITION, *ATTITUDE) if name in samples]
+    good = np.all(np.isfinite(samples.matrix(used)), axis=1)
+    if np.sum(good) < 2:
+        raise InputError(
+            "{file} of the reference has no two rows with all of {columns}.",
+            file=segment.segment.file,
+            columns=", ".join(used),
+        )
+    t_s = samples["t_s"][good]
+    values = {name: samples[name][good] for name in used}
+    _check_values(segment, values)
+    if any(name not in values for name in POSITION):
+        initial = record.header.initial or {}
+        site = reference.header.site
+        place = (site.latitude_deg, site.longitude_deg or 0.0, site.altitude_m)
+        warnings.append(
+            Message("The reference has no position: the carrier's path is reckoned from its velocity.")
+        )
+        values |= _reckoned(
+            t_s, values, [float(initial.get(n, p)) for n, p in zip(POSITION, place, strict=True)]
+        )
+    if any(name not in values for name in VELOCITY_ENU):
+        warnings.append(
+            Message("The reference has no velocity: the unit's at the start is the slope of the position.")
+        )
+        values |= _differentiated(t_s, values)
+    state = np.column_stack(
+        [
+            *(values[name] for name in VELOCITY_ENU),
+            np.radians(values["latitude_deg"]),
+            np.unwrap(np.radians(values["longitude_deg"])),
+            values["altitude_m"],
+        ]
+    )
+    slerp = None
+    if all(name in values for name in ATTITUDE):
+        C = attitude_matrix(*(values[name] for name in ATTITUDE))
+        slerp = Slerp(t_s, Rotation.from_matrix(C))
+    return _Track(t_s, state, slerp), warnings
+
+
+def _reference_segment(reference: Recording, settings: TransferSettings) -> RecordedSegment:
+    name = settings.reference_segment
+    for one in reference.segments:
+        if one.usable and (name is None or name in (one.segment.file, one.segment.name)):
+            return one
+    raise InputError(
+        "The reference's recording has no usable segment {name}; there are: {known}.",
+        name=name or "",
+        known=", ".join(one.segment.file for one in reference.segments),
+    )
+
+
+def _check_values(segment: RecordedSegment, values: Mapping[str, Array]) -> None:
+    for name, limit in (("latitude_deg", 90.0), ("longitude_deg", 360.0), ("pitch_deg", 90.0)):
+        if name in values and np.max(np.abs(values[name])) > limit:
+            raise InputError(
+                "{file} of the reference: {column} reaches {value}; it has to lie within ±{limit}°. Is the "
+                "column in degrees?",
+                file=segment.segment.file,
+                column=name,
+                value=float(values[name][np.argmax(np.abs(values[name]))]),
+                limit=limit,
+            )
+    if "latitude_deg" in values and np.max(np.abs(values["latitude_deg"])) > POLAR_LATITUDE_DEG:
+        raise InputError(
+            "The carrier comes beyond {limit}° of latitude: so near a pole east and north are no frame to "
+            "align in.",
+            limit=POLAR_LATITUDE_DEG,
+        )
+
+
+def _reckoned(t_s: Array, values: Mapping[str, Array], place: list[float]) -> dict[str, Array]:
+    step = np.diff(t_s, prepend=t_s[0])
+    radius = 6.371e6
+    latitude = place[0] + np.degrees(np.cumsum(values["vn_mps"] * step)) / radius
+    east = np.cumsum(values["ve_mps"] * step / np.cos(np.radians(latitude)))
+    return {
+        "latitude_deg": latitude,
+        "longitude_deg": place[1] + np.degrees(east) / radius,
+        "altitude_m": place[2] + np.cumsum(values["vu_mps"] * step),
+    }
+
+
+def _differentiated(t_s: Array, values: Mapping[str, Array]) -> dict[str, Array]:
+    radius = 6.371e6
+    latitude = np.radians(values["latitude_deg"])
+    longitude = np.unwrap(np.radians(values["longitude_deg"]))
+    return {
+        "ve_mps": radius * np.cos(latitude) * np.gradient(longitude, t_s),
+        "vn_mps": radius * np.gradient(latitude, t_s),
+        "vu_mps": np.gradient(values["altitude_m"], t_s),
+    }
+
+
+def _instants(record: InertialRecord, track: _Track, every_s: float) -> Array:
+    """Ends of the unit's intervals at which the reference shows something, at least ``every_s`` apart."""
+    if not (isfinite(every_s) and every_s > 0):
+        raise InputError("The time between comparisons is {every} s: it has to be above 0.", every=every_s)
+    begin, end = float(record.t_s[0] - record.interval_s[0]), float(record.t_s[-1])
+    if track.t_s[0] > end or track.t_s[-1] < begin:
+        raise InputError(
+            "The recordings do not overlap: the reference runs from {r0} s to {r1} s, the unit from {u0} s "
+            "to {u1} s. Bring both on one time base.",
+            r0=f"{track.t_s[0]:.3f}",
+            r1=f"{track.t_s[-1]:.3f}",
+            u0=f"{begin:.3f}",
+            u1=f"{end:.3f}",
+        )
+    near = np.clip(np.searchsorted(record.t_s, track.t_s), 1, len(record.t_s) - 1)
+    near -= track.t_s - record.t_s[near - 1] < record.t_s[near] - track.t_s
+    close = np.abs(record.t_s[near] - track.t_s) <= 0.51 / record.header.device.sample_rate_hz
+    ends = record.t_s[np.unique(near[close])]
+    chosen: list[float] = []
+    for t_s in ends:
+        if not chosen or t_s - chosen[-1] >= every_s - 1e-6:
+            chosen.append(float(t_s))
+    if len(chosen) <= LEAST_COMPARISONS:
+        raise InputError(
+            "The recordings have only {count} instants in common, every {every} s; at least {least} are "
+            "needed. Record longer, or compare more often.",
+            count=len(chosen),
+            every=every_s,
+            least=LEAST_COMPARISONS + 1,
+        )
+    return np.array(chosen)
+
+
+def _start(record: InertialRecord, track: _Track, settings: TransferSettings) -> Start:
+    """The unit's state at its start, or where the reference begins if that is what it is copied from."""
+    initial = record.header.initial or {}
+    own_attitude = all(name in initial for name in ATTITUDE)
+    begin = float(record.t_s[0] - record.interval_s[0])
+    whole = own_attitude and "velocity_enu_mps" in initial and all(name in initial for name in POSITION)
+    if not whole and track.t_s[0] > begin:
+        if initial:
+            raise InputError(
+                "[initial] of the unit's recording does not give its whole state, and the reference begins "
+                "only at {time} s, after it: add heading, pitch, roll, velocity and position to [initial], "
+                "or leave it out.",
+                time=f"{track.t_s[0]:.3f}",
+            )
+        begin = float(record.t_s[np.searchsorted(record.t_s, track.t_s[0] - 1e-6)])
+    state, attitude = track.at(np.array([begin]))
+    if not own_attitude and attitude is None:
+        raise InputError(
+            "Nobody says how the unit stands at the start: give heading_deg, pitch_deg and roll_deg in "
+            "[initial] of its recording, or as columns of the reference."
+        )
+    C = attitude if not own_attitude else attitude_matrix(*([_number(initial, name)] for name in ATTITUDE))
+    copied = Motion(np.asarray(C), state[:, :3], state[:, 3], state[:, 4], state[:, 5])
+    if any(settings.lever_m):
+        row = int(np.searchsorted(record.t_s, begin + 1e-6))
+        copied = carried_over(copied, copied.C_bn, record.rate[row : row + 1], np.array(settings.lever_m))
+    place = [np.array([_number(initial, name)]) if name in initial else None for name in POSITION]
+    velocity = _velocity(initial)
+    motion = Motion(
+        copied.C_bn,
+        copied.velocity if velocity is None else velocity,
+        copied.latitude if place[0] is None else np.radians(place[0]),
+        copied.longitude if place[1] is None else np.radians(place[1]),
+        copied.altitude if place[2] is None else place[2],
+    )
+    return Start(begin, motion, copied=not own_attitude)
+
+
+def _number(initial: Mapping[str, Any], name: str) -> float:
+    value = initial[name]
+    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+        raise InputError("[initial] of the unit's recording: {name} is no number.", name=name)
+    return float(value)
+
+
+def _velocity(initial: Mapping[str, Any]) -> Array | None:
+    if "velocity_enu_mps" not in initial:
+        return None
+    try:
+        velocity = np.array([float(value) for value in initial["velocity_enu_mps"]])
+    except (TypeError, ValueError):
+        velocity = np.empty(0)
+    if velocity.shape != (3,) or not np.all(np.isfinite(velocity)):
+        raise InputError(
+            "[initial] of the unit's recording: velocity_enu_mps has to be three numbers, m/s to east, "
+            "north and up."
+        )
+    return velocity[np.newaxis]

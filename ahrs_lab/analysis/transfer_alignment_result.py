@@ -137,8 +137,8 @@ class TransferResult:
         if nis <= high:
             return self.data_warnings
         larger = Message(
-            "The differences are larger than assumed ({what}): the stated uncertainties are too small. Look at "
-            "the noise settings, the lever arm, and whether both systems share one time base.",
+            "The differences are larger than assumed ({what}): the stated uncertainties are too small. Look "
+            "at the noise settings, the lever arm, and whether both systems share one time base.",
             what=self._nis_text(),
         )
         return (*self.data_warnings, larger)
@@ -176,7 +176,7 @@ class TransferResult:
     def _angles(self) -> Table:
         angle, u = np.degrees(self.misalignment)
         rows: list[tuple[Cell, ...]] = [
-            (name, f"{angle[i]:.5f}", f"{u[i]:.5f}") for i, name in enumerate(_axes())
+            (name, f"{angle[i]:.5f}", f"{u[i]:.5f}") for i, name in enumerate(_ENU)
         ]
         if self.aligned.method.needs_attitude:
             title = Message("Unit's case against the reference's, at the end")
@@ -283,7 +283,10 @@ class TransferResult:
         aligned = self.aligned
         charts = [
             self._chart(
-                Message("Misalignment of the computed frame, ± 3σ"), PHI, aligned.misalignment, _axes()
+                Message("Misalignment of the computed frame, ± 3σ"),
+                PHI,
+                aligned.misalignment,
+                ("φ_E", "φ_N", "φ_U"),
             )
         ]
         for title, rows in (
@@ -340,11 +343,8 @@ class TransferResult:
         return Chart(title, Message("time, s"), Message("NIS"), tuple(curves))
 
 
-def _axes() -> tuple[Message, Message, Message]:
-    return Message("east"), Message("north"), Message("up")
-
-
 _XYZ: Final = ("x", "y", "z")
+_ENU: Final = ("E", "N", "U")
 _COMPARED: Final = ("v_E", "v_N", "v_U", "L", "λ", "A", "Δφ_E", "Δφ_N", "Δφ_U")
 _COMPARED_AXIS: Final[dict[str, Any]] = dict(
     zip(_COMPARED, ("x", "y", "z", "y", "x", "z", "x", "y", "z"), strict=True)

@@ -21,6 +21,7 @@ from ahrs_lab.analysis.transfer_alignment_result import TransferResult
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.attitude import attitude_matrix
 from ahrs_lab.inertial.transfer_alignment import (
+    EARTH_RADIUS_M,
     Assumptions,
     Reference,
     Start,
@@ -140,7 +141,12 @@ def _track(
             missing=", ".join(missing),
             method=settings.method,
         )
-    used = [name for name in (*VELOCITY_ENU, *POSITION, *ATTITUDE) if name in samples]
+    used = list(needed)
+    for group in (VELOCITY_ENU, POSITION, ATTITUDE):
+        # what is not compared helps at the start, unless it is mostly not there
+        there = group[0] not in needed and all(name in samples for name in group)
+        if there and np.mean(np.all(np.isfinite(samples.matrix(group)), axis=1)) > 0.5:
+            used += group
     good = np.all(np.isfinite(samples.matrix(used)), axis=1)
     if np.sum(good) < 2:
         raise InputError(
@@ -183,14 +189,20 @@ def _track(
 
 def _reference_segment(reference: Recording, settings: TransferSettings) -> RecordedSegment:
     name = settings.reference_segment
-    for one in reference.segments:
-        if one.usable and (name is None or name in (one.segment.file, one.segment.name)):
-            return one
-    raise InputError(
-        "The reference's recording has no usable segment {name}; there are: {known}.",
-        name=name or "",
-        known=", ".join(one.segment.file for one in reference.segments),
-    )
+    chosen = [s for s in reference.segments if name is None or name in (s.segment.file, s.segment.name)]
+    if not chosen:
+        raise InputError(
+            "The reference's recording has no segment {name}; there are: {known}.",
+            name=name or "–",
+            known=", ".join(one.segment.file for one in reference.segments),
+        )
+    usable = next((one for one in chosen if one.usable), None)
+    if usable is None:
+        found = (f.placed for s in chosen for f in s.findings)
+        raise InputError(
+            "No segment of the reference's recording can be used: {what}", what=next(found, Message("–"))
+        )
+    return usable
 
 
 def _check_values(segment: RecordedSegment, values: Mapping[str, Array]) -> None:
@@ -214,23 +226,21 @@ def _check_values(segment: RecordedSegment, values: Mapping[str, Array]) -> None
 
 def _reckoned(t_s: Array, values: Mapping[str, Array], place: list[float]) -> dict[str, Array]:
     step = np.diff(t_s, prepend=t_s[0])
-    radius = 6.371e6
-    latitude = place[0] + np.degrees(np.cumsum(values["vn_mps"] * step)) / radius
+    latitude = place[0] + np.degrees(np.cumsum(values["vn_mps"] * step)) / EARTH_RADIUS_M
     east = np.cumsum(values["ve_mps"] * step / np.cos(np.radians(latitude)))
     return {
         "latitude_deg": latitude,
-        "longitude_deg": place[1] + np.degrees(east) / radius,
+        "longitude_deg": place[1] + np.degrees(east) / EARTH_RADIUS_M,
         "altitude_m": place[2] + np.cumsum(values["vu_mps"] * step),
     }
 
 
 def _differentiated(t_s: Array, values: Mapping[str, Array]) -> dict[str, Array]:
-    radius = 6.371e6
     latitude = np.radians(values["latitude_deg"])
     longitude = np.unwrap(np.radians(values["longitude_deg"]))
     return {
-        "ve_mps": radius * np.cos(latitude) * np.gradient(longitude, t_s),
-        "vn_mps": radius * np.gradient(latitude, t_s),
+        "ve_mps": EARTH_RADIUS_M * np.cos(latitude) * np.gradient(longitude, t_s),
+        "vn_mps": EARTH_RADIUS_M * np.gradient(latitude, t_s),
         "vu_mps": np.gradient(values["altitude_m"], t_s),
     }
 

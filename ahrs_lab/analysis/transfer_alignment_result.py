@@ -11,11 +11,17 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from ahrs_lab.analysis.report import Cell, Chart, Curve, Report, Table
-from ahrs_lab.inertial.transfer_alignment import Assumptions, Reference, TransferAlignment
+from ahrs_lab.inertial.transfer_alignment import (
+    EARTH_RADIUS_M,
+    Assumptions,
+    Reference,
+    TransferAlignment,
+)
 from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_BIAS,
     AZIMUTH,
     GYRO_BIAS,
+    LONGITUDE,
     MOUNTING,
     NAMES,
     PHI,
@@ -29,12 +35,11 @@ NOT_SHOWN: Final = 0.5
 """A state whose uncertainty is still more than this part of what was assumed of it."""
 
 _PER_HOUR = np.radians(1.0) / 3600.0
-_EARTH_RADIUS_M = 6.371e6
 # per state: unit, and how many SI units it is
 _UNITS: Final = (
     *([("°", np.radians(1.0))] * 3),
     *([("m/s", 1.0)] * 3),
-    *([("m", 1 / _EARTH_RADIUS_M)] * 2),
+    *([("m", 1 / EARTH_RADIUS_M)] * 2),
     *([("°/h", _PER_HOUR)] * 3),
     *([("mm/s²", 1e-3)] * 3),
     *([("ppm", 1e-6)] * 6),
@@ -194,6 +199,8 @@ class TransferResult:
         rows = []
         for i, state in enumerate(aligned.method.estimated):
             unit, scale = _UNITS[state]
+            if state == LONGITUDE:
+                scale = scale / np.cos(float(aligned.motion.latitude[0]))
             # velocity and position are put right at every comparison: there is no value to show at the end
             value = aligned.misalignment[0, -1, state] if state < 3 else aligned.estimate[0, -1, state]
             shown = f"{value / scale:.5g}" if state < 3 or state >= GYRO_BIAS.start else "–"
@@ -312,7 +319,7 @@ class TransferResult:
         aligned = self.aligned
         groups = (
             (Message("Innovations of velocity, and ± 3σ"), "m/s", 1.0, (0, 1, 2)),
-            (Message("Innovations of position, and ± 3σ"), "m", 1 / _EARTH_RADIUS_M, (3, 4)),
+            (Message("Innovations of position, and ± 3σ"), "m", 1 / EARTH_RADIUS_M, (3, 4)),
             (Message("Innovations of angle, and ± 3σ"), "°", float(np.radians(1.0)), (5, 6, 7, 8)),
         )
         charts = []
@@ -324,9 +331,10 @@ class TransferResult:
             for i in columns:
                 seen = np.isfinite(aligned.innovation[0, :, i])
                 t_s = aligned.t_s[seen]
-                value = aligned.innovation[0, seen, i] / scale
-                band = 3 * aligned.innovation_u[0, seen, i] / scale
                 name = _COMPARED[aligned.method.compares[i]]
+                along = float(np.cos(aligned.motion.latitude[0])) if name == "λ" else 1.0
+                value = aligned.innovation[0, seen, i] * along / scale
+                band = 3 * aligned.innovation_u[0, seen, i] * along / scale
                 curves.append(Curve(name, t_s, value, -band, band, axis=_COMPARED_AXIS[name], style="points"))
             charts.append(
                 Chart(title, Message("time, s"), Message("value, {unit}", unit=unit), tuple(curves))

@@ -52,6 +52,9 @@ from ahrs_lab.inertial.transfer_alignment_motion import (
 
 Array = NDArray[np.float64]
 
+EARTH_RADIUS_M = 6.371e6
+"""Good enough for how large an uncertainty in metres is in radians."""
+
 LONGEST_WINDOW_S = 2.0
 """Comparisons further apart are reached in steps: the error model is a series in the length of a step."""
 
@@ -179,7 +182,7 @@ class _Filter:
         self.found = np.zeros((b, SIZE))
         self.mounting = np.broadcast_to(np.eye(3), (b, 3, 3))
         self.next = int(np.searchsorted(unit.t_s, start.t_s + 1e-6))
-        full = _prior(self.motion.C_bn, assumed, start.copied, method)
+        full = _prior(self.motion, assumed, start.copied, method)
         self.P = full[:, self.states[:, np.newaxis], self.states]
         self.prior_u = np.sqrt(np.diagonal(self.P[0]))
         noise = np.zeros(SIZE)
@@ -265,7 +268,7 @@ class _Filter:
                 - self.found[:, AZIMUTH] * azimuth_share(motion.C_bn)
             )
             z[:, 6:] = _rotation_vector(motion.C_bn @ (reference.C_bn @ self.mounting).mT)
-        metre = 1 / 6.371e6
+        metre = 1 / EARTH_RADIUS_M
         around = metre / np.cos(motion.latitude[0])
         sigma = np.array(
             [
@@ -353,17 +356,19 @@ def carried_over(reference: Motion, C_bn: Array, rate: Array, lever: Array) -> M
     return Motion(reference.C_bn, reference.velocity + swing, *moved(reference, arm))
 
 
-def _prior(C_bn: Array, assumed: Assumptions, copied: bool, method: Method) -> Array:
+def _prior(motion: Motion, assumed: Assumptions, copied: bool, method: Method) -> Array:
     """Covariance of all states at the start, shape (b, 24, 24).
 
     With the attitude copied from the reference, φ = C·λ: misalignment and mounting are one unknown, not two.
     """
+    C_bn = motion.C_bn
     b = len(C_bn)
-    metre = 1 / 6.371e6
+    metre = 1 / EARTH_RADIUS_M
     sigma = np.zeros(SIZE)
     sigma[PHI] = (assumed.level, assumed.level, assumed.azimuth)
     sigma[VELOCITY] = assumed.velocity
-    sigma[LATITUDE] = sigma[LONGITUDE] = assumed.position_m * metre
+    sigma[LATITUDE] = assumed.position_m * metre
+    sigma[LONGITUDE] = assumed.position_m * metre / np.cos(motion.latitude[0])
     sigma[GYRO_BIAS], sigma[ACCEL_BIAS] = assumed.gyro_bias, assumed.accel_bias
     sigma[GYRO_SCALE], sigma[ACCEL_SCALE] = assumed.gyro_scale, assumed.accel_scale
     sigma[MOUNTING], sigma[AZIMUTH] = assumed.mounting, assumed.mounting

@@ -32,22 +32,10 @@ def write_corrected(
         for recorded in recording.segments:
             if not len(recorded.samples):
                 continue
-            segment = recorded.segment
-            writer.begin(segment)
+            writer.begin(recorded.segment)
             writer.append(correct(recorded))
-            if segment.interrupted:
-                writer.interrupt(segment.reason)
-                continue
-            writer.finish()
-            if segment.superseded and not _followed(recording, recorded):
-                writer.supersede(segment.name, segment.reason)
+            if recorded.segment.interrupted:
+                writer.interrupt(recorded.segment.reason)
+            else:
+                writer.finish()
         writer.update_notes({**notes, "corrected_from": recording.sha256})
-
-
-def _followed(recording: Recording, recorded: RecordedSegment) -> bool:
-    """Whether a later take of the same name sets this one aside by itself."""
-    later = recording.segments[recording.segments.index(recorded) + 1 :]
-    return any(
-        one.segment.name == recorded.segment.name and len(one.samples) and not one.segment.interrupted
-        for one in later
-    )

@@ -12,7 +12,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from ahrs_lab.inertial.attitude import rotation_from_vector
-from ahrs_lab.inertial.transfer_alignment import Assumptions, Reference, Start, TransferAlignment
+from ahrs_lab.inertial.transfer_alignment import (
+    EARTH_RADIUS_M,
+    Assumptions,
+    Reference,
+    Start,
+    TransferAlignment,
+)
 from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_BIAS,
     ACCEL_SCALE,
@@ -32,8 +38,6 @@ from ahrs_lab.inertial.transfer_alignment_motion import Increments, Motion
 from ahrs_lab.simulation.trajectory import Flight
 
 Array = NDArray[np.float64]
-
-_EARTH_RADIUS_M = 6.371e6
 
 
 @dataclass(frozen=True)
@@ -78,7 +82,7 @@ def transfer_pairs(
     ``copied``: the unit starts with the reference's attitude.
     """
     rng = np.random.default_rng(seed)
-    errors = _drawn(rng, assumed, method, count)
+    errors = _drawn(rng, assumed, method, count, float(flight.latitude_rad[0]))
     turned = rotation_from_vector(errors[:, MOUNTING])
     if method == "velocity-azimuth":
         # heading is clockwise, the case's z axis up
@@ -110,12 +114,15 @@ def transfer_pairs(
     )
 
 
-def _drawn(rng: np.random.Generator, assumed: Assumptions, method: MethodName, count: int) -> Array:
+def _drawn(
+    rng: np.random.Generator, assumed: Assumptions, method: MethodName, count: int, latitude: float
+) -> Array:
     """Shape (count, 24): errors of the states that the method has or considers; the others are none."""
     sigma = np.zeros(SIZE)
     sigma[PHI] = (assumed.level, assumed.level, assumed.azimuth)
     sigma[VELOCITY] = assumed.velocity
-    sigma[LATITUDE] = sigma[LONGITUDE] = assumed.position_m / _EARTH_RADIUS_M
+    sigma[LATITUDE] = assumed.position_m / EARTH_RADIUS_M
+    sigma[LONGITUDE] = assumed.position_m / EARTH_RADIUS_M / np.cos(latitude)
     sigma[GYRO_BIAS], sigma[ACCEL_BIAS] = assumed.gyro_bias, assumed.accel_bias
     sigma[GYRO_SCALE], sigma[ACCEL_SCALE] = assumed.gyro_scale, assumed.accel_scale
     sigma[MOUNTING], sigma[AZIMUTH] = assumed.mounting, assumed.mounting
@@ -151,7 +158,7 @@ def _reference(
 ) -> Reference:
     """The truth at ``rows`` with the noise of a comparison."""
     shape = (count, len(rows))
-    metre = assumed.position_noise_m / _EARTH_RADIUS_M
+    metre = assumed.position_noise_m / EARTH_RADIUS_M
     latitude = flight.latitude_rad[rows]
     noise = rotation_from_vector(assumed.attitude_noise * rng.normal(size=(*shape, 3)))
     return Reference(

@@ -119,7 +119,7 @@ def test_a_copied_start_shows_how_the_unit_is_mounted(tmp_path: Path, method: st
         np.abs(data["misalignment_deg"] - np.degrees(truth)) < 3.5 * u + 0.15 * (method == "position")
     )
     assert np.all(u < [0.2, 0.2, 1.2])
-    assert data["nis_band"][0] < data["nis_mean"] < data["nis_band"][1] or method == "velocity-azimuth"
+    assert data["nis_band"][0] < data["nis_mean"] < data["nis_band"][1]
     assert ("mounting_deg" in data) == (method not in ("velocity", "position"))
 
 
@@ -184,6 +184,35 @@ def test_other_sample_rates_and_a_later_start_go_together(tmp_path: Path) -> Non
     away = np.abs(np.array(late["misalignment_deg"]) - whole["misalignment_deg"])
     assert np.all(away < 4 * np.array(late["standard_uncertainty_deg"]) + 0.3)
     assert late["t_s"] == pytest.approx(whole["t_s"], abs=1.5)
+
+
+def test_a_unit_that_knows_its_state_may_begin_before_the_reference(tmp_path: Path) -> None:
+    start = wrong_start(heading_deg=0.7)
+    late = reference(tmp_path, change=lambda s: s.rows(50))
+    data = aligned(late, unit(tmp_path, mounting=np.zeros(3), initial=start)).data
+    u = np.array(data["standard_uncertainty_deg"])
+    assert np.all(np.abs(data["misalignment_deg"] - np.array([0.0, 0.0, 0.7])) < 3.5 * u)
+    del start["velocity_enu_mps"]
+    with pytest.raises(InputError, match="does not give its whole state"):
+        aligned(late, unit(tmp_path / "less", initial=start))
+
+
+def test_columns_that_are_not_compared_may_be_empty(tmp_path: Path) -> None:
+    def unknown(s: Samples) -> Samples:
+        rates = {name: np.zeros(len(s)) for name in GYRO}
+        return s.with_columns({**rates, **{n: np.full(len(s), np.nan) for n in ("heading_deg", "pitch_deg")}})
+
+    empty = reference(tmp_path, change=unknown)
+    whole = unit(tmp_path, initial=wrong_start(), mounting=np.zeros(3))
+    assert len(aligned(empty, whole).data["misalignment_deg"]) == 3
+    with pytest.raises(InputError, match=r"no column heading_deg|no two rows"):
+        aligned(empty, whole, "velocity-attitude")
+
+
+def test_a_reference_without_a_usable_row_says_why(tmp_path: Path) -> None:
+    empty = reference(tmp_path, change=lambda s: s.with_columns({"heading_deg": np.full(len(s), np.nan)}))
+    with pytest.raises(InputError, match="can be used: "):
+        aligned(empty, unit(tmp_path))
 
 
 def test_position_alone_is_enough_for_position(tmp_path: Path) -> None:
@@ -254,7 +283,7 @@ def holed(s: Samples) -> Samples:
         (None, None, "velocity", {"level_deg": float("nan")}, "above 0"),
         (None, None, "velocity", {"every_s": -1.0}, "above 0"),
         (None, None, "angles", {}, "no method angles"),
-        (None, None, "velocity", {"reference_segment": "x"}, "no usable segment x"),
+        (None, None, "velocity", {"reference_segment": "x"}, "has no segment x"),
         (None, None, "velocity", {"unit_segment": "x"}, "no segment x"),
     ],
 )

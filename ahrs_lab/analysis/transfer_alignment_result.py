@@ -67,19 +67,17 @@ class TransferResult:
         if not aligned.method.needs_attitude:
             return aligned.misalignment[0, -1], aligned.misalignment_u[0, -1]
         C = aligned.motion.C_bn[0]
-        n = len(aligned.method.states)
-        P = aligned.covariance[0]
         if MOUNTING.start in aligned.method.states:
             at = aligned.method.states.index(MOUNTING.start)
             vector = Rotation.from_matrix(aligned.mounting[0]).as_rotvec()
-            of_mounting = C @ P[at : at + 3, at : at + 3] @ C.T
+            of_mounting = C @ aligned.covariance[0, at : at + 3, at : at + 3] @ C.T
             return C @ vector, np.sqrt(np.diag(of_mounting))
         # level from the attitude found and the reference's last one, azimuth from all of them
         assert self.reference.C_bn is not None
         between = Rotation.from_matrix(C @ self.reference.C_bn[0, -1].T).as_rotvec()
         level_u = np.hypot(aligned.misalignment_u[0, -1, :2], self.assumed.attitude_noise)
         share = float(azimuth_share(aligned.motion.C_bn)[0])
-        azimuth_u = share * np.sqrt(P[n - 1, n - 1])
+        azimuth_u = share * aligned.estimate_u[0, -1, AZIMUTH]
         # heading is clockwise, the rotation about up is not
         return np.array([*between[:2], -share * aligned.estimate[0, -1, AZIMUTH]]), np.array(
             [*level_u, azimuth_u]
@@ -127,6 +125,8 @@ class TransferResult:
             "gyro_bias_standard_uncertainty_deg_per_h": self._bias(aligned.estimate_u, GYRO_BIAS, _PER_HOUR),
             "accel_bias_standard_uncertainty_mps2": self._bias(aligned.estimate_u, ACCEL_BIAS, 1.0),
             "computed_frame_deg": np.degrees(aligned.misalignment[0, -1]).tolist(),
+            "computed_frame_at_start_deg": np.degrees(aligned.misalignment_at_start[0]).tolist(),
+            "computed_frame_at_start_u_deg": np.degrees(aligned.misalignment_at_start_u[0]).tolist(),
             "not_shown": self._not_shown(),
             "singular_values": self.singular_values.tolist(),
             "warnings": [warning.text() for warning in self.warnings],
@@ -162,7 +162,7 @@ class TransferResult:
         """Tables of the misalignment, the states and what was observable; charts of the convergence."""
         return Report(
             Message("Alignment against a reference system"),
-            (self._angles(), self._states(), self._observability()),
+            (self._angles(), self._at_start(), self._states(), self._observability()),
             (*self._convergence(), *self._innovations()),
             notes=(*self._notes(), self._shown(), *self._fit()),
             warnings=self.warnings,
@@ -193,6 +193,15 @@ class TransferResult:
         else:
             title = Message("Unit's computed frame against the reference, at the end")
         return Table(title, (Message("about"), "°", Message("standard uncertainty, °")), tuple(rows))
+
+    def _at_start(self) -> Table:
+        angle, u = self.aligned.misalignment_at_start[0], self.aligned.misalignment_at_start_u[0]
+        rows = tuple(
+            (name, f"{value:.5f}", f"{of:.5f}")
+            for name, value, of in zip(_ENU, np.degrees(angle), np.degrees(u), strict=True)
+        )
+        title = Message("Unit's computed frame against the reference, at the start")
+        return Table(title, (Message("about"), "°", Message("standard uncertainty, °")), rows)
 
     def _states(self) -> Table:
         aligned = self.aligned

@@ -24,6 +24,7 @@ from ahrs_lab.inertial.attitude import rotation_from_vector
 from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_BIAS,
     ACCEL_SCALE,
+    AT_START,
     AZIMUTH,
     GYRO_BIAS,
     GYRO_SCALE,
@@ -119,10 +120,11 @@ class TransferAlignment:
     """k comparisons of b units.
 
     ``t_s`` (k,); ``misalignment`` and ``misalignment_u`` (b, k, 3) rad about east, north, up; ``estimate``
-    and ``estimate_u`` (b, k, 24): sensors' errors, mounting and azimuth offset found so far, and the
+    and ``estimate_u`` (b, k, 27): sensors' errors, mounting and azimuth offset found so far, and the
     standard uncertainty of every state (NaN where the method has it not); ``innovation``, ``innovation_u``
     (b, k, q), NaN where not compared; ``nis`` (b, k), ``compared`` (k,) how many numbers. At the end:
-    ``motion``, ``mounting`` (b, 3, 3) C_b^a, ``covariance`` (b, n, n) of ``method.states``. ``prior_u``
+    ``motion``, ``mounting`` (b, 3, 3) C_b^a, ``covariance`` (b, n, n) of ``method.states``. At the start, as
+    the end lets it be seen: ``misalignment_at_start`` and its uncertainty (b, 3). ``prior_u``
     (n,), and ``information`` (e, e) that the comparisons hold of the estimated states at the start, in units
     of the prior's."""
 
@@ -139,6 +141,8 @@ class TransferAlignment:
     motion: Motion
     mounting: Array
     covariance: Array
+    misalignment_at_start: Array
+    misalignment_at_start_u: Array
     prior_u: Array
     information: Array
 
@@ -167,7 +171,7 @@ def align(
 
 
 class _Filter:
-    """The loop's state. ``found`` (b, 24) holds the totals fed back so far; ``P`` belongs to what is left."""
+    """The loop's state. ``found`` (b, 27) holds the totals fed back so far; ``P`` belongs to what is left."""
 
     def __init__(
         self, method: Method, unit: Increments, start: Start, assumed: Assumptions, lever: Array | None
@@ -176,11 +180,12 @@ class _Filter:
         self.method, self.unit, self.assumed = method, unit.compensated(), assumed
         self.states = np.array(method.states)
         self.estimated = len(method.estimated)
+        self.considered = slice(self.estimated, self.estimated + len(method.considered))
         b = max(len(unit.angle_rad), len(start.motion.C_bn))
         self.motion = _spread(start.motion, b)
         self.alone = self.motion.C_bn
         self.found = np.zeros((b, SIZE))
-        self.mounting = np.broadcast_to(np.eye(3), (b, 3, 3))
+        self.mounting = self.start = np.broadcast_to(np.eye(3), (b, 3, 3))
         self.next = int(np.searchsorted(unit.t_s, start.t_s + 1e-6))
         full = _prior(self.motion, assumed, start.copied, method)
         self.P = full[:, self.states[:, np.newaxis], self.states]
@@ -292,7 +297,7 @@ class _Filter:
         """Joseph's form, which also holds for the gain that leaves the considered states alone."""
         S = H @ self.P @ H.mT + R
         K = np.linalg.solve(S, H @ self.P).mT.copy()
-        K[:, self.estimated :] = 0.0
+        K[:, self.considered] = 0.0
         left = np.eye(len(self.states)) - K @ H
         self.P = left @ self.P @ left.mT + K @ R @ K.mT
         self._feed_back(np.einsum("bij,bj->bi", K, z))
@@ -313,6 +318,8 @@ class _Filter:
         self.mounting = self.mounting @ rotation_from_vector(full[:, MOUNTING])
         self.found = self.found + full
         self.found[:, MOUNTING] = _rotation_vector(self.mounting)
+        self.start = rotation_from_vector(full[:, AT_START]) @ self.start
+        self.found[:, AT_START] = _rotation_vector(self.start)
 
     def _keep(self, t_s: float, z: Array, u: Array, nis: Array, compares: tuple[int, ...]) -> None:
         variances = np.full(self.found.shape, np.nan)
@@ -343,6 +350,8 @@ class _Filter:
             self.motion,
             self.mounting,
             self.P,
+            found[-1, :, AT_START],
+            u[:, -1, AT_START],
             self.prior_u,
             self.information,
         )
@@ -357,7 +366,7 @@ def carried_over(reference: Motion, C_bn: Array, rate: Array, lever: Array) -> M
 
 
 def _prior(motion: Motion, assumed: Assumptions, copied: bool, method: Method) -> Array:
-    """Covariance of all states at the start, shape (b, 24, 24).
+    """Covariance of all states at the start, shape (b, 27, 27).
 
     With the attitude copied from the reference, φ = C·λ: misalignment and mounting are one unknown, not two.
     """
@@ -373,18 +382,19 @@ def _prior(motion: Motion, assumed: Assumptions, copied: bool, method: Method) -
     sigma[GYRO_SCALE], sigma[ACCEL_SCALE] = assumed.gyro_scale, assumed.accel_scale
     sigma[MOUNTING], sigma[AZIMUTH] = assumed.mounting, assumed.mounting
     P = np.repeat(np.diag(sigma**2)[np.newaxis], b, axis=0)
-    if not copied or not method.needs_attitude:
-        return P
     noise = assumed.attitude_noise**2
-    if AZIMUTH in method.estimated:
+    if copied and AZIMUTH in method.estimated:
         P[:, 2, 2] = assumed.mounting**2 + noise
         share = 1 / azimuth_share(C_bn)
         P[:, AZIMUTH, AZIMUTH] = share**2 * assumed.mounting**2
         P[:, 2, AZIMUTH] = P[:, AZIMUTH, 2] = -share * assumed.mounting**2
-        return P
-    P[:, PHI, PHI] = (assumed.mounting**2 + noise) * np.eye(3)
-    P[:, PHI, MOUNTING] = assumed.mounting**2 * C_bn
-    P[:, MOUNTING, PHI] = assumed.mounting**2 * C_bn.mT
+    elif copied and method.needs_attitude:
+        P[:, PHI, PHI] = (assumed.mounting**2 + noise) * np.eye(3)
+        P[:, PHI, MOUNTING] = assumed.mounting**2 * C_bn
+        P[:, MOUNTING, PHI] = assumed.mounting**2 * C_bn.mT
+    # the start is its own misalignment
+    P[:, AT_START] = P[:, PHI]
+    P[:, :, AT_START] = P[:, :, PHI]
     return P
 
 

@@ -57,14 +57,17 @@ GYRO_BIAS, ACCEL_BIAS = slice(8, 11), slice(11, 14)
 GYRO_SCALE, ACCEL_SCALE = slice(14, 17), slice(17, 20)
 MOUNTING = slice(20, 23)
 AZIMUTH = 23
-SIZE: Final = 24
+AT_START = slice(24, 27)
+SIZE: Final = 27
 
 NAMES: Final = (
     *("φ_E", "φ_N", "φ_U", "δv_E", "δv_N", "δv_U", "δL", "δλ"),
     *("ε_x", "ε_y", "ε_z", "∇_x", "∇_y", "∇_z"),
     *("δK_gx", "δK_gy", "δK_gz", "δK_ax", "δK_ay", "δK_az"),
     *("λ_x", "λ_y", "λ_z", "AMB"),
+    *("φ_E(0)", "φ_N(0)", "φ_U(0)"),
 )
+"""The last three are φ as it was at the start: they never change, and every comparison tells of them too."""
 
 
 @dataclass(frozen=True)
@@ -80,8 +83,8 @@ class Method:
 
     @property
     def states(self) -> tuple[int, ...]:
-        """Estimated, then considered."""
-        return self.estimated + self.considered
+        """Estimated, then considered, then φ at the start."""
+        return (*self.estimated, *self.considered, *range(AT_START.start, AT_START.stop))
 
     @property
     def needs_attitude(self) -> bool:
@@ -101,7 +104,7 @@ METHODS: Final[dict[str, Method]] = {
 
 
 def error_matrix(window: Window, latitude: Array, altitude: Array) -> Array:
-    """F of all states, shape (b, 24, 24), 1/s, from the means over a window."""
+    """F of all states, shape (b, 27, 27), 1/s, from the means over a window."""
     b = len(latitude)
     degrees = np.degrees(latitude)
     along_east = transverse_radius_m(degrees) + altitude
@@ -156,7 +159,7 @@ def discrete(F: Array, noise: Array, duration_s: float) -> tuple[Array, Array]:
 
 
 def comparison_matrix(C_bn: Array) -> Array:
-    """H of all states for all that can be compared, shape (b, 9, 24), for the unit's attitude (b, 3, 3)."""
+    """H of all states for all that can be compared, shape (b, 9, 27), for the unit's attitude (b, 3, 3)."""
     H = np.zeros((len(C_bn), 9, SIZE))
     for row, state in ((0, 3), (1, 4), (2, 5), (3, LATITUDE), (4, LONGITUDE)):
         H[:, row, state] = 1.0

@@ -22,6 +22,7 @@ from ahrs_lab.inertial.transfer_alignment import (
 from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_BIAS,
     ACCEL_SCALE,
+    AT_START,
     AZIMUTH,
     GYRO_BIAS,
     GYRO_SCALE,
@@ -42,7 +43,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Pair:
-    """b pairs as the filter takes them; ``errors`` (b, 24) are the states at the start, ``C_bn`` (b, 3, 3),
+    """b pairs as the filter takes them; ``errors`` (b, 27) are the states at the start, ``C_bn`` (b, 3, 3),
     ``velocity`` and ``place`` (3,) the truth at the end of the flight."""
 
     unit: Increments
@@ -57,6 +58,7 @@ class Pair:
         """Shape (b, n): the true errors left at the end, in the order of ``found.method.states``."""
         motion = found.motion
         left = self.errors - found.estimate[:, -1]
+        left[:, AT_START] = self.errors[:, PHI] - found.misalignment_at_start
         left[:, PHI] = -_rotation_vector(motion.C_bn @ self.C_bn.mT)
         left[:, VELOCITY] = motion.velocity - self.velocity
         left[:, LATITUDE] = motion.latitude - self.place[0]
@@ -117,7 +119,7 @@ def transfer_pairs(
 def _drawn(
     rng: np.random.Generator, assumed: Assumptions, method: MethodName, count: int, latitude: float
 ) -> Array:
-    """Shape (count, 24): errors of the states that the method has or considers; the others are none."""
+    """Shape (count, 27): errors of the states that the method has or considers; the others are none."""
     sigma = np.zeros(SIZE)
     sigma[PHI] = (assumed.level, assumed.level, assumed.azimuth)
     sigma[VELOCITY] = assumed.velocity
@@ -128,6 +130,7 @@ def _drawn(
     sigma[MOUNTING], sigma[AZIMUTH] = assumed.mounting, assumed.mounting
     has = np.zeros(SIZE)
     has[list(METHODS[method].states)] = 1.0
+    has[AT_START] = 0.0
     return np.asarray(sigma * has * rng.normal(size=(count, SIZE)))
 
 

@@ -88,7 +88,7 @@ def s_turn() -> Flight:
 
 @cache
 def flown(method: MethodName, copied: bool) -> tuple[Pair, TransferAlignment]:
-    pair = transfer_pairs(s_turn(), method, ASSUMED, PAIRS, 7, every=20, copied=copied)
+    pair = transfer_pairs(s_turn(), method, ASSUMED, PAIRS, 8, every=20, copied=copied)
     return pair, align(pair.unit, pair.reference, pair.start, method, ASSUMED)
 
 
@@ -127,6 +127,16 @@ def test_innovations_are_as_large_as_expected_and_white(method: MethodName, copi
     scaled = found.innovation[:, :, 0] / found.innovation_u[:, :, 0]
     lagged = np.mean(scaled[:, 1:] * scaled[:, :-1])
     assert abs(lagged) < 4 / np.sqrt(scaled.size)
+
+
+@pytest.mark.parametrize(("method", "copied"), METHODS_AND_STARTS)
+def test_how_wrong_the_start_was_is_known_as_well(method: MethodName, copied: bool) -> None:
+    pair, found = flown(method, copied)
+    scaled = (found.misalignment_at_start - pair.errors[:, PHI]) / found.misalignment_at_start_u
+    assert np.all(np.abs(np.mean(scaled**2, axis=0) - 1) < 4 * np.sqrt(2 / PAIRS))
+    # what drifts in a flight of 160 s is more than what is left to be known of it
+    drifted = np.std(found.misalignment[:, -1] - pair.errors[:, PHI], axis=0)
+    assert np.all(drifted[:2] > 0.5 * np.mean(found.misalignment_at_start_u[:, :2], axis=0))
 
 
 def test_states_are_as_many_as_the_text_has() -> None:

@@ -21,8 +21,12 @@ from typing import Any
 import numpy as np
 from scipy.stats import chi2
 
-from ahrs_lab.inertial.transfer_alignment import Assumptions, align
-from ahrs_lab.inertial.transfer_alignment_model import METHODS, MethodName
+from ahrs_lab.inertial.transfer_alignment import align
+from ahrs_lab.inertial.transfer_alignment_model import (
+    METHODS,
+    Assumptions,
+    MethodName,
+)
 from ahrs_lab.simulation.manoeuvres import Accelerate, Steady, STurns, Turn
 from ahrs_lab.simulation.trajectory import Flight, Start, fly
 from ahrs_lab.simulation.transfer_pair import transfer_pairs

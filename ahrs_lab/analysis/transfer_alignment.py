@@ -21,14 +21,17 @@ from ahrs_lab.analysis.transfer_alignment_result import TransferResult
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.attitude import attitude_matrix
 from ahrs_lab.inertial.transfer_alignment import (
-    EARTH_RADIUS_M,
-    Assumptions,
     Reference,
     Start,
     align,
     carried_over,
 )
-from ahrs_lab.inertial.transfer_alignment_model import METHODS, MethodName
+from ahrs_lab.inertial.transfer_alignment_model import (
+    EARTH_RADIUS_M,
+    METHODS,
+    Assumptions,
+    MethodName,
+)
 from ahrs_lab.inertial.transfer_alignment_motion import Increments, Motion
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.read import RecordedSegment, Recording

@@ -11,20 +11,17 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from ahrs_lab.analysis.report import Cell, Chart, Curve, Report, Table
-from ahrs_lab.inertial.transfer_alignment import (
-    EARTH_RADIUS_M,
-    Assumptions,
-    Reference,
-    TransferAlignment,
-)
+from ahrs_lab.inertial.transfer_alignment import Reference, TransferAlignment
 from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_BIAS,
     AZIMUTH,
+    EARTH_RADIUS_M,
     GYRO_BIAS,
     LONGITUDE,
     MOUNTING,
     NAMES,
     PHI,
+    Assumptions,
     azimuth_share,
 )
 from ahrs_lab.messages import Message

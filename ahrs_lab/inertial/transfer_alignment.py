@@ -26,6 +26,7 @@ from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_SCALE,
     AT_START,
     AZIMUTH,
+    EARTH_RADIUS_M,
     GYRO_BIAS,
     GYRO_SCALE,
     LATITUDE,
@@ -35,12 +36,14 @@ from ahrs_lab.inertial.transfer_alignment_model import (
     PHI,
     SIZE,
     VELOCITY,
+    Assumptions,
     Method,
     MethodName,
     azimuth_share,
     comparison_matrix,
     discrete,
     error_matrix,
+    prior_covariance,
 )
 from ahrs_lab.inertial.transfer_alignment_motion import (
     Increments,
@@ -53,36 +56,8 @@ from ahrs_lab.inertial.transfer_alignment_motion import (
 
 Array = NDArray[np.float64]
 
-EARTH_RADIUS_M = 6.371e6
-"""Good enough for how large an uncertainty in metres is in radians."""
-
 LONGEST_WINDOW_S = 2.0
 """Comparisons further apart are reached in steps: the error model is a series in the length of a step."""
-
-
-@dataclass(frozen=True)
-class Assumptions:
-    """Standard deviations before and during the alignment, SI units and radians.
-
-    ``*_noise``: of one comparison; ``angle_random_walk`` rad/√s, ``velocity_random_walk`` (m/s)/√s; the
-    others what is known at the start. ``level_limit``: azimuth is compared while roll and pitch are below
-    it."""
-
-    velocity_noise: float
-    position_noise_m: float
-    attitude_noise: float
-    angle_random_walk: float
-    velocity_random_walk: float
-    level: float
-    azimuth: float
-    velocity: float
-    position_m: float
-    gyro_bias: float
-    accel_bias: float
-    gyro_scale: float
-    accel_scale: float
-    mounting: float
-    level_limit: float
 
 
 @dataclass(frozen=True)
@@ -187,7 +162,7 @@ class _Filter:
         self.found = np.zeros((b, SIZE))
         self.mounting = self.start = np.broadcast_to(np.eye(3), (b, 3, 3))
         self.next = int(np.searchsorted(unit.t_s, start.t_s + 1e-6))
-        full = _prior(self.motion, assumed, start.copied, method)
+        full = prior_covariance(self.motion, assumed, start.copied, method)
         self.P = full[:, self.states[:, np.newaxis], self.states]
         self.prior_u = np.sqrt(np.diagonal(self.P[0]))
         noise = np.zeros(SIZE)
@@ -363,39 +338,6 @@ def carried_over(reference: Motion, C_bn: Array, rate: Array, lever: Array) -> M
     arm = np.einsum("bij,j->bi", C_bn, lever)
     swing = np.einsum("bij,bj->bi", C_bn, np.cross(rate, lever))
     return Motion(reference.C_bn, reference.velocity + swing, *moved(reference, arm))
-
-
-def _prior(motion: Motion, assumed: Assumptions, copied: bool, method: Method) -> Array:
-    """Covariance of all states at the start, shape (b, 27, 27).
-
-    With the attitude copied from the reference, φ = C·λ: misalignment and mounting are one unknown, not two.
-    """
-    C_bn = motion.C_bn
-    b = len(C_bn)
-    metre = 1 / EARTH_RADIUS_M
-    sigma = np.zeros(SIZE)
-    sigma[PHI] = (assumed.level, assumed.level, assumed.azimuth)
-    sigma[VELOCITY] = assumed.velocity
-    sigma[LATITUDE] = assumed.position_m * metre
-    sigma[LONGITUDE] = assumed.position_m * metre / np.cos(motion.latitude[0])
-    sigma[GYRO_BIAS], sigma[ACCEL_BIAS] = assumed.gyro_bias, assumed.accel_bias
-    sigma[GYRO_SCALE], sigma[ACCEL_SCALE] = assumed.gyro_scale, assumed.accel_scale
-    sigma[MOUNTING], sigma[AZIMUTH] = assumed.mounting, assumed.mounting
-    P = np.repeat(np.diag(sigma**2)[np.newaxis], b, axis=0)
-    noise = assumed.attitude_noise**2
-    if copied and AZIMUTH in method.estimated:
-        P[:, 2, 2] = assumed.mounting**2 + noise
-        share = 1 / azimuth_share(C_bn)
-        P[:, AZIMUTH, AZIMUTH] = share**2 * assumed.mounting**2
-        P[:, 2, AZIMUTH] = P[:, AZIMUTH, 2] = -share * assumed.mounting**2
-    elif copied and method.needs_attitude:
-        P[:, PHI, PHI] = (assumed.mounting**2 + noise) * np.eye(3)
-        P[:, PHI, MOUNTING] = assumed.mounting**2 * C_bn
-        P[:, MOUNTING, PHI] = assumed.mounting**2 * C_bn.mT
-    # the start is its own misalignment
-    P[:, AT_START] = P[:, PHI]
-    P[:, :, AT_START] = P[:, :, PHI]
-    return P
 
 
 def _spread(motion: Motion, b: int) -> Motion:

@@ -46,10 +46,13 @@ from ahrs_lab.inertial.earth import (
     normal_gravity_mps2,
     transverse_radius_m,
 )
-from ahrs_lab.inertial.transfer_alignment_motion import Window, frame_rates
+from ahrs_lab.inertial.transfer_alignment_motion import Motion, Window, frame_rates
 
 Array = NDArray[np.float64]
 MethodName = Literal["velocity", "position", "velocity-azimuth", "velocity-attitude"]
+
+EARTH_RADIUS_M = 6.371e6
+"""Good enough for how large an uncertainty in metres is in radians."""
 
 PHI, VELOCITY = slice(0, 3), slice(3, 6)
 LATITUDE, LONGITUDE = 6, 7
@@ -101,6 +104,31 @@ METHODS: Final[dict[str, Method]] = {
         "velocity-attitude", (*range(7), *_GYRO, *_ACCEL, 20, 21, 22), (), (0, 1, 2, 6, 7, 8)
     ),
 }
+
+
+@dataclass(frozen=True)
+class Assumptions:
+    """Standard deviations before and during the alignment, SI units and radians.
+
+    ``*_noise``: of one comparison; ``angle_random_walk`` rad/√s, ``velocity_random_walk`` (m/s)/√s; the
+    others what is known at the start. ``level_limit``: azimuth is compared while roll and pitch are below
+    it."""
+
+    velocity_noise: float
+    position_noise_m: float
+    attitude_noise: float
+    angle_random_walk: float
+    velocity_random_walk: float
+    level: float
+    azimuth: float
+    velocity: float
+    position_m: float
+    gyro_bias: float
+    accel_bias: float
+    gyro_scale: float
+    accel_scale: float
+    mounting: float
+    level_limit: float
 
 
 def error_matrix(window: Window, latitude: Array, altitude: Array) -> Array:
@@ -178,3 +206,36 @@ def azimuth_share(C_bn: Array) -> Array:
     """cos γ/cos θ, shape (b,): how far a turn about the case's z axis shows in azimuth."""
     forward = C_bn[:, :, 1]
     return np.asarray(C_bn[:, 2, 2] / (forward[:, 0] ** 2 + forward[:, 1] ** 2))
+
+
+def prior_covariance(motion: Motion, assumed: Assumptions, copied: bool, method: Method) -> Array:
+    """Covariance of all states at the start, shape (b, 27, 27).
+
+    With the attitude copied from the reference, φ = C·λ: misalignment and mounting are one unknown, not two.
+    """
+    C_bn = motion.C_bn
+    b = len(C_bn)
+    metre = 1 / EARTH_RADIUS_M
+    sigma = np.zeros(SIZE)
+    sigma[PHI] = (assumed.level, assumed.level, assumed.azimuth)
+    sigma[VELOCITY] = assumed.velocity
+    sigma[LATITUDE] = assumed.position_m * metre
+    sigma[LONGITUDE] = assumed.position_m * metre / np.cos(motion.latitude[0])
+    sigma[GYRO_BIAS], sigma[ACCEL_BIAS] = assumed.gyro_bias, assumed.accel_bias
+    sigma[GYRO_SCALE], sigma[ACCEL_SCALE] = assumed.gyro_scale, assumed.accel_scale
+    sigma[MOUNTING], sigma[AZIMUTH] = assumed.mounting, assumed.mounting
+    P = np.repeat(np.diag(sigma**2)[np.newaxis], b, axis=0)
+    noise = assumed.attitude_noise**2
+    if copied and AZIMUTH in method.estimated:
+        P[:, 2, 2] = assumed.mounting**2 + noise
+        share = 1 / azimuth_share(C_bn)
+        P[:, AZIMUTH, AZIMUTH] = share**2 * assumed.mounting**2
+        P[:, 2, AZIMUTH] = P[:, AZIMUTH, 2] = -share * assumed.mounting**2
+    elif copied and method.needs_attitude:
+        P[:, PHI, PHI] = (assumed.mounting**2 + noise) * np.eye(3)
+        P[:, PHI, MOUNTING] = assumed.mounting**2 * C_bn
+        P[:, MOUNTING, PHI] = assumed.mounting**2 * C_bn.mT
+    # the start is its own misalignment
+    P[:, AT_START] = P[:, PHI]
+    P[:, :, AT_START] = P[:, :, PHI]
+    return P

@@ -12,18 +12,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from ahrs_lab.inertial.attitude import rotation_from_vector
-from ahrs_lab.inertial.transfer_alignment import (
-    EARTH_RADIUS_M,
-    Assumptions,
-    Reference,
-    Start,
-    TransferAlignment,
-)
+from ahrs_lab.inertial.transfer_alignment import Reference, Start, TransferAlignment
 from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_BIAS,
     ACCEL_SCALE,
     AT_START,
     AZIMUTH,
+    EARTH_RADIUS_M,
     GYRO_BIAS,
     GYRO_SCALE,
     LATITUDE,
@@ -33,6 +28,7 @@ from ahrs_lab.inertial.transfer_alignment_model import (
     PHI,
     SIZE,
     VELOCITY,
+    Assumptions,
     MethodName,
 )
 from ahrs_lab.inertial.transfer_alignment_motion import Increments, Motion

@@ -14,7 +14,6 @@ from scipy.stats import chi2
 from ahrs_lab.inertial.attitude import attitude_angles_deg, attitude_matrix, rotation_from_vector
 from ahrs_lab.inertial.earth import EARTH_RATE_RADPS, meridian_radius_m, transverse_radius_m
 from ahrs_lab.inertial.transfer_alignment import (
-    Assumptions,
     Reference,
     Start,
     TransferAlignment,
@@ -33,6 +32,7 @@ from ahrs_lab.inertial.transfer_alignment_model import (
     PHI,
     SIZE,
     VELOCITY,
+    Assumptions,
     MethodName,
     comparison_matrix,
     discrete,

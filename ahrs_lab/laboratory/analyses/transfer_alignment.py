@@ -11,8 +11,12 @@ import numpy as np
 
 from ahrs_lab.analysis.transfer_alignment import TransferSettings, transfer_align
 from ahrs_lab.errors import InputError
-from ahrs_lab.inertial.transfer_alignment import Assumptions
-from ahrs_lab.inertial.transfer_alignment_model import METHODS, NAMES, MethodName
+from ahrs_lab.inertial.transfer_alignment_model import (
+    METHODS,
+    NAMES,
+    Assumptions,
+    MethodName,
+)
 from ahrs_lab.laboratory.analyses.kinds import AnalysisKind, Outcome, Setting, Value
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.read import read_bundle

@@ -46,6 +46,8 @@ ASSUMED = Assumptions(
     accel_bias=0.01,
     gyro_scale=3e-4,
     accel_scale=3e-4,
+    gyro_cross=3e-4,
+    accel_cross=3e-4,
     mounting=1 * DEGREE,
     level_limit=5 * DEGREE,
 )

@@ -17,6 +17,8 @@ from ahrs_lab.inertial.transfer_alignment_model import (
     AZIMUTH,
     EARTH_RADIUS_M,
     GYRO_BIAS,
+    GYRO_CROSS,
+    GYRO_SCALE,
     LONGITUDE,
     MOUNTING,
     NAMES,
@@ -286,9 +288,15 @@ class TransferResult:
         )
         if not self.aligned.method.considered:
             return frame, start
+        kinds = (
+            (GYRO_BIAS, Message("gyro bias")),
+            (ACCEL_BIAS, Message("accelerometer bias")),
+            (GYRO_SCALE, Message("scale factor")),
+            (GYRO_CROSS, Message("misalignment of the sensors")),
+        )
         considered = Message(
-            "The method has no state for {states}; their assumed uncertainty is in the stated one.",
-            states=", ".join(NAMES[state] for state in self.aligned.method.considered),
+            "The method has no state for {states}; what was assumed of that is in the stated uncertainty.",
+            states=_listed([n for rows, n in kinds if rows.start in self.aligned.method.considered]),
         )
         return frame, start, considered
 
@@ -355,6 +363,13 @@ class TransferResult:
             curves.append(Curve(f"{p:.1%}", aligned.t_s, np.asarray(limit, dtype=np.float64), style="dashed"))
         title = Message("Normalised innovations squared (NIS) and where 95 % should lie")
         return Chart(title, Message("time, s"), Message("NIS"), tuple(curves))
+
+
+def _listed(names: list[Message]) -> Message:
+    listed = names[0]
+    for name in names[1:]:
+        listed = Message("{listed}, {name}", listed=listed, name=name)
+    return listed
 
 
 _XYZ: Final = ("x", "y", "z")

@@ -95,7 +95,7 @@ class TransferAlignment:
     """k comparisons of b units.
 
     ``t_s`` (k,); ``misalignment`` and ``misalignment_u`` (b, k, 3) rad about east, north, up; ``estimate``
-    and ``estimate_u`` (b, k, 27): sensors' errors, mounting and azimuth offset found so far, and the
+    and ``estimate_u`` (b, k, 39): sensors' errors, mounting and azimuth offset found so far, and the
     standard uncertainty of every state (NaN where the method has it not); ``innovation``, ``innovation_u``
     (b, k, q), NaN where not compared; ``nis`` (b, k), ``compared`` (k,) how many numbers. At the end:
     ``motion``, ``mounting`` (b, 3, 3) C_b^a, ``covariance`` (b, n, n) of ``method.states``. At the start, as
@@ -146,7 +146,7 @@ def align(
 
 
 class _Filter:
-    """The loop's state. ``found`` (b, 27) holds the totals fed back so far; ``P`` belongs to what is left."""
+    """The loop's state. ``found`` (b, 39) holds the totals fed back so far; ``P`` belongs to what is left."""
 
     def __init__(
         self, method: Method, unit: Increments, start: Start, assumed: Assumptions, lever: Array | None

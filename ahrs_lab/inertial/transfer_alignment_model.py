@@ -27,9 +27,9 @@ Differences from the printed text, found when deriving it:
   the last block is −H₁T_b, not +H₁T_b, as Δφ = T_bλ − φ.
 
 The angles of (2-174) are compared as the rotation vector of Ĉ·(T_a·C_b^a)ᵀ = I + (T_bλ − φ)×, which to first
-order is the same and has no singular pitch. A bias that a method has no state for is *considered* (Schmidt):
-it is not estimated, but its uncertainty is carried along, so that the stated one is true of a unit with
-biases."""
+order is the same and has no singular pitch. An error of the sensors that a method has no state for (a bias,
+a scale error, always their misalignments) is *considered* (Schmidt): it is not estimated, but its uncertainty
+is carried along, so that the stated one is true of a unit with such errors."""
 
 from __future__ import annotations
 
@@ -61,7 +61,10 @@ GYRO_SCALE, ACCEL_SCALE = slice(14, 17), slice(17, 20)
 MOUNTING = slice(20, 23)
 AZIMUTH = 23
 AT_START = slice(24, 27)
-SIZE: Final = 27
+GYRO_CROSS, ACCEL_CROSS = slice(27, 33), slice(33, 39)
+SIZE: Final = 39
+CROSS: Final = ((0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1))
+"""Output channel and input axis of the sensors' six misalignments, each of gyros and accelerometers."""
 
 NAMES: Final = (
     *("φ_E", "φ_N", "φ_U", "δv_E", "δv_N", "δv_U", "δL", "δλ"),
@@ -69,8 +72,11 @@ NAMES: Final = (
     *("δK_gx", "δK_gy", "δK_gz", "δK_ax", "δK_ay", "δK_az"),
     *("λ_x", "λ_y", "λ_z", "AMB"),
     *("φ_E(0)", "φ_N(0)", "φ_U(0)"),
+    *(f"E_{'xyz'[i]}{'xyz'[j]}" for i, j in CROSS),
+    *(f"K_{'xyz'[i]}{'xyz'[j]}" for i, j in CROSS),
 )
-"""The last three are φ as it was at the start: they never change, and every comparison tells of them too."""
+"""φ(0) is φ as it was at the start: it never changes, and every comparison tells of it too. E and K are the
+misalignments of gyros and accelerometers in the unit's case; no method estimates them."""
 
 
 @dataclass(frozen=True)
@@ -96,12 +102,13 @@ class Method:
 
 
 _PHI, _GYRO, _ACCEL = (0, 1, 2), (8, 9, 10), (11, 12, 13)
+_SCALE, _CROSS = tuple(range(14, 20)), tuple(range(27, 39))
 METHODS: Final[dict[str, Method]] = {
-    "velocity": Method("velocity", (*_PHI, 3, 4), _GYRO + _ACCEL, (0, 1)),
-    "position": Method("position", (*_PHI, 3, 4, 6, 7, *_GYRO), _ACCEL, (3, 4)),
-    "velocity-azimuth": Method("velocity-azimuth", (*range(6), *range(8, 20), 23), (), (0, 1, 2, 5)),
+    "velocity": Method("velocity", (*_PHI, 3, 4), _GYRO + _ACCEL + _SCALE + _CROSS, (0, 1)),
+    "position": Method("position", (*_PHI, 3, 4, 6, 7, *_GYRO), _ACCEL + _SCALE + _CROSS, (3, 4)),
+    "velocity-azimuth": Method("velocity-azimuth", (*range(6), *range(8, 20), 23), _CROSS, (0, 1, 2, 5)),
     "velocity-attitude": Method(
-        "velocity-attitude", (*range(7), *_GYRO, *_ACCEL, 20, 21, 22), (), (0, 1, 2, 6, 7, 8)
+        "velocity-attitude", (*range(7), *_GYRO, *_ACCEL, 20, 21, 22), _SCALE + _CROSS, (0, 1, 2, 6, 7, 8)
     ),
 }
 
@@ -127,12 +134,14 @@ class Assumptions:
     accel_bias: float
     gyro_scale: float
     accel_scale: float
+    gyro_cross: float
+    accel_cross: float
     mounting: float
     level_limit: float
 
 
 def error_matrix(window: Window, latitude: Array, altitude: Array) -> Array:
-    """F of all states, shape (b, 27, 27), 1/s, from the means over a window."""
+    """F of all states, shape (b, 39, 39), 1/s, from the means over a window."""
     b = len(latitude)
     degrees = np.degrees(latitude)
     along_east = transverse_radius_m(degrees) + altitude
@@ -154,7 +163,9 @@ def error_matrix(window: Window, latitude: Array, altitude: Array) -> Array:
     F[:, PHI, VELOCITY] = over_by_velocity
     F[:, PHI, LATITUDE] = earth_by_latitude + over_by_latitude
     F[:, PHI, GYRO_BIAS] = -window.C
-    F[:, PHI, GYRO_SCALE] = -window.C_rate
+    axes, (outputs, inputs) = np.arange(3), np.array(CROSS).T
+    F[:, PHI, GYRO_SCALE] = -window.C_rate[:, :, axes, axes]
+    F[:, PHI, GYRO_CROSS] = -window.C_rate[:, :, outputs, inputs]
     F[:, VELOCITY, PHI] = skew(window.force)
     F[:, VELOCITY, VELOCITY] = skew(v) @ over_by_velocity - skew(2 * earth + over)
     F[:, VELOCITY, LATITUDE] = np.cross(v, 2 * earth_by_latitude + over_by_latitude)
@@ -163,7 +174,8 @@ def error_matrix(window: Window, latitude: Array, altitude: Array) -> Array:
     )
     F[:, 5, LATITUDE] -= by_latitude / np.radians(0.02)
     F[:, VELOCITY, ACCEL_BIAS] = window.C
-    F[:, VELOCITY, ACCEL_SCALE] = window.C_force
+    F[:, VELOCITY, ACCEL_SCALE] = window.C_force[:, :, axes, axes]
+    F[:, VELOCITY, ACCEL_CROSS] = window.C_force[:, :, outputs, inputs]
     F[:, LATITUDE, 4] = 1 / along_north
     F[:, LONGITUDE, 3] = 1 / (along_east * cosine)
     F[:, LONGITUDE, LATITUDE] = v[:, 0] * tangent / (along_east * cosine)
@@ -187,7 +199,7 @@ def discrete(F: Array, noise: Array, duration_s: float) -> tuple[Array, Array]:
 
 
 def comparison_matrix(C_bn: Array) -> Array:
-    """H of all states for all that can be compared, shape (b, 9, 27), for the unit's attitude (b, 3, 3)."""
+    """H of all states for all that can be compared, shape (b, 9, 39), for the unit's attitude (b, 3, 3)."""
     H = np.zeros((len(C_bn), 9, SIZE))
     for row, state in ((0, 3), (1, 4), (2, 5), (3, LATITUDE), (4, LONGITUDE)):
         H[:, row, state] = 1.0
@@ -209,7 +221,7 @@ def azimuth_share(C_bn: Array) -> Array:
 
 
 def prior_covariance(motion: Motion, assumed: Assumptions, copied: bool, method: Method) -> Array:
-    """Covariance of all states at the start, shape (b, 27, 27).
+    """Covariance of all states at the start, shape (b, 39, 39).
 
     With the attitude copied from the reference, φ = C·λ: misalignment and mounting are one unknown, not two.
     """
@@ -223,6 +235,7 @@ def prior_covariance(motion: Motion, assumed: Assumptions, copied: bool, method:
     sigma[LONGITUDE] = assumed.position_m * metre / np.cos(motion.latitude[0])
     sigma[GYRO_BIAS], sigma[ACCEL_BIAS] = assumed.gyro_bias, assumed.accel_bias
     sigma[GYRO_SCALE], sigma[ACCEL_SCALE] = assumed.gyro_scale, assumed.accel_scale
+    sigma[GYRO_CROSS], sigma[ACCEL_CROSS] = assumed.gyro_cross, assumed.accel_cross
     sigma[MOUNTING], sigma[AZIMUTH] = assumed.mounting, assumed.mounting
     P = np.repeat(np.diag(sigma**2)[np.newaxis], b, axis=0)
     noise = assumed.attitude_noise**2

@@ -69,8 +69,8 @@ class Motion:
 @dataclass(frozen=True)
 class Window:
     """What lies between two instants of comparison: ``motion`` at the end, and for the error model the means
-    over the window: ``C`` (b, 3, 3), ``C_rate`` and ``C_force`` (b, 3, 3): mean of C·diag(ω) and of
-    C·diag(f); ``force`` (b, 3) along east, north, up, ``frame_rate`` (b, 3): ω_in, ``velocity`` (b, 3)."""
+    over the window: ``C`` (b, 3, 3); ``C_rate`` and ``C_force`` (b, 3, 3, 3): of C_ai·ω_j and C_ai·f_j;
+    ``force`` (b, 3) along east, north, up; ``frame_rate`` (b, 3): ω_in; ``velocity`` (b, 3)."""
 
     motion: Motion
     duration_s: float
@@ -135,8 +135,8 @@ def advance(start: Motion, angle: Array, velocity: Array, interval_s: Array) -> 
         motion=end,
         duration_s=duration,
         C=np.sum(weighted, axis=1),
-        C_rate=np.einsum("bmij,bmj->bij", C, angle) / duration,
-        C_force=np.einsum("bmij,bmj->bij", C, velocity) / duration,
+        C_rate=_mean_product(C, angle) / duration,
+        C_force=_mean_product(C, velocity) / duration,
         force=gained / duration,
         frame_rate=frame,
         velocity=mean_velocity,
@@ -150,6 +150,12 @@ def moved(start: Motion, path: Array) -> tuple[Array, Array, Array]:
     middle = (start.latitude + latitude) / 2
     around = (transverse_radius_m(np.degrees(middle)) + start.altitude) * np.cos(middle)
     return latitude, start.longitude + path[:, 0] / around, start.altitude + path[:, 2]
+
+
+def _mean_product(C: Array, increments: Array) -> Array:
+    """Shape (b, 3, 3, 3): Σ C_ai·x_j over the m samples of C (b, m, 3, 3) and x (b, m, 3)."""
+    b, m = C.shape[:2]
+    return np.asarray((C.reshape(b, m, 9).mT @ increments).reshape(b, 3, 3, 3))
 
 
 def running_product(rotations: Array) -> Array:

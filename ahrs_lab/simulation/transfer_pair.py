@@ -15,11 +15,14 @@ from ahrs_lab.inertial.attitude import rotation_from_vector
 from ahrs_lab.inertial.transfer_alignment import Reference, Start, TransferAlignment
 from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_BIAS,
+    ACCEL_CROSS,
     ACCEL_SCALE,
     AT_START,
     AZIMUTH,
+    CROSS,
     EARTH_RADIUS_M,
     GYRO_BIAS,
+    GYRO_CROSS,
     GYRO_SCALE,
     LATITUDE,
     LONGITUDE,
@@ -39,7 +42,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Pair:
-    """b pairs as the filter takes them; ``errors`` (b, 27) are the states at the start, ``C_bn`` (b, 3, 3),
+    """b pairs as the filter takes them; ``errors`` (b, 39) are the states at the start, ``C_bn`` (b, 3, 3),
     ``velocity`` and ``place`` (3,) the truth at the end of the flight."""
 
     unit: Increments
@@ -115,7 +118,7 @@ def transfer_pairs(
 def _drawn(
     rng: np.random.Generator, assumed: Assumptions, method: MethodName, count: int, latitude: float
 ) -> Array:
-    """Shape (count, 27): errors of the states that the method has or considers; the others are none."""
+    """Shape (count, 39): errors of the states that the method has or considers; the others are none."""
     sigma = np.zeros(SIZE)
     sigma[PHI] = (assumed.level, assumed.level, assumed.azimuth)
     sigma[VELOCITY] = assumed.velocity
@@ -123,6 +126,7 @@ def _drawn(
     sigma[LONGITUDE] = assumed.position_m / EARTH_RADIUS_M / np.cos(latitude)
     sigma[GYRO_BIAS], sigma[ACCEL_BIAS] = assumed.gyro_bias, assumed.accel_bias
     sigma[GYRO_SCALE], sigma[ACCEL_SCALE] = assumed.gyro_scale, assumed.accel_scale
+    sigma[GYRO_CROSS], sigma[ACCEL_CROSS] = assumed.gyro_cross, assumed.accel_cross
     sigma[MOUNTING], sigma[AZIMUTH] = assumed.mounting, assumed.mounting
     has = np.zeros(SIZE)
     has[list(METHODS[method].states)] = 1.0
@@ -142,14 +146,25 @@ def _unit(
     root = np.sqrt(interval)[:, np.newaxis]
     step, each = interval[:, np.newaxis], errors[:, np.newaxis]
     # C_b^a takes the case's components to the carrier's
-    angle = flight.angle_rad @ turned * (1 + each[..., GYRO_SCALE]) + each[..., GYRO_BIAS] * step
-    velocity = flight.velocity_mps @ turned * (1 + each[..., ACCEL_SCALE]) + each[..., ACCEL_BIAS] * step
+    angle = (flight.angle_rad @ turned) @ _gains(errors, GYRO_SCALE, GYRO_CROSS).mT
+    velocity = (flight.velocity_mps @ turned) @ _gains(errors, ACCEL_SCALE, ACCEL_CROSS).mT
+    angle += each[..., GYRO_BIAS] * step
+    velocity += each[..., ACCEL_BIAS] * step
     return Increments(
         flight.t_s[1:],
         interval,
         angle + assumed.angle_random_walk * root * rng.normal(size=shape),
         velocity + assumed.velocity_random_walk * root * rng.normal(size=shape),
     )
+
+
+def _gains(errors: Array, scale: slice, cross: slice) -> Array:
+    """Shape (b, 3, 3): I + δK + E, row = output channel."""
+    gains = np.repeat(np.eye(3)[np.newaxis], len(errors), axis=0)
+    axes, (outputs, inputs) = np.arange(3), np.array(CROSS).T
+    gains[:, axes, axes] += errors[:, scale]
+    gains[:, outputs, inputs] += errors[:, cross]
+    return gains
 
 
 def _reference(

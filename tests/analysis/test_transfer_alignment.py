@@ -119,7 +119,8 @@ def test_a_copied_start_shows_how_the_unit_is_mounted(tmp_path: Path, method: st
         np.abs(data["misalignment_deg"] - np.degrees(truth)) < 3.5 * u + 0.15 * (method == "position")
     )
     assert np.all(u < [0.2, 0.2, 1.2])
-    assert data["nis_band"][0] < data["nis_mean"] < data["nis_band"][1]
+    # the unit has no scale errors, of which the filter considers some
+    assert 0.8 * data["nis_expected"] < data["nis_mean"] < data["nis_band"][1]
     assert ("mounting_deg" in data) == (method not in ("velocity", "position"))
 
 

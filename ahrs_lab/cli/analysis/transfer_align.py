@@ -23,8 +23,10 @@ _NUMBERS = (
     ("position_m", "assumed error of the unit's position at the start (10)"),
     ("gyro_bias_deg_per_h", "assumed gyro bias (10)"),
     ("accel_bias_mps2", "assumed accelerometer bias (0.01)"),
-    ("gyro_scale_ppm", "assumed scale error of the gyros (300)"),
-    ("accel_scale_ppm", "assumed scale error of the accelerometers (300)"),
+    ("gyro_scale_ppm", "assumed scale error of the gyros (500)"),
+    ("accel_scale_ppm", "assumed scale error of the accelerometers (500)"),
+    ("gyro_cross_mrad", "assumed misalignment of the gyros in the case (0.5)"),
+    ("accel_cross_mrad", "assumed misalignment of the accelerometers in the case (0.5)"),
     ("level_limit_deg", "azimuth is compared below this roll and pitch (5)"),
     ("every_s", "least time between comparisons (1)"),
 )

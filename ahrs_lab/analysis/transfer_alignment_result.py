@@ -291,7 +291,7 @@ class TransferResult:
         kinds = (
             (GYRO_BIAS, Message("gyro bias")),
             (ACCEL_BIAS, Message("accelerometer bias")),
-            (GYRO_SCALE, Message("scale factor")),
+            (GYRO_SCALE, Message("scale error")),
             (GYRO_CROSS, Message("misalignment of the sensors")),
         )
         considered = Message(

@@ -18,7 +18,7 @@ from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.attitude import attitude_angles_deg, rotation_from_vector
 from ahrs_lab.laboratory.analyses.files import write_outcome
 from ahrs_lab.laboratory.analyses.kinds import Outcome
-from ahrs_lab.laboratory.analyses.transfer_alignment import TRANSFER_ALIGNMENT
+from ahrs_lab.laboratory.analyses.transfer_alignment import KIND
 from ahrs_lab.recording.orientation import Orientation
 from ahrs_lab.recording.samples import ACCEL, GYRO, Samples
 from ahrs_lab.recording.segment import DeviceDescription, RecordingHeader, Segment, Site
@@ -96,8 +96,8 @@ def unit(
 
 
 def aligned(reference: Path, unit: Path, method: str = "velocity", **settings: Any) -> Outcome:
-    chosen = {**TRANSFER_ALIGNMENT.defaults(), "method": method, **settings}
-    return TRANSFER_ALIGNMENT.run([reference, unit], chosen)
+    chosen = {**KIND.defaults(), "method": method, **settings}
+    return KIND.run([reference, unit], chosen)
 
 
 def wrong_start(**change: float) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import pytest
 
 from ahrs_lab.cli import main
 from ahrs_lab.cli.analysis.transfer_align import _NUMBERS
-from ahrs_lab.laboratory.analyses.transfer_alignment import TRANSFER_ALIGNMENT
+from ahrs_lab.laboratory.analyses.transfer_alignment import KIND
 from tests.analysis.test_transfer_alignment import reference, unit
 
 
@@ -36,6 +36,6 @@ def test_recordings_the_wrong_way_round_are_told(tmp_path: Path, capsys: pytest.
 
 
 def test_options_are_the_settings_with_their_defaults() -> None:
-    defaults = TRANSFER_ALIGNMENT.defaults()
+    defaults = KIND.defaults()
     for key, text in _NUMBERS:
         assert f"({defaults[key]:g})" in text

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from ahrs_lab.cli.analysis.outcome import out_option, run_kind
+
 NAME = "transfer-align"
 HELP = "Aligns a unit against a reference inertial system on the same carrier."
 
@@ -48,16 +50,15 @@ def options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--reference-segment", metavar="FILE", help="which of the reference's (the first)")
     parser.add_argument("--unit-segment", metavar="FILE", help="which of the unit's (the first)")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="result and series go there")
+    out_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Align; returns the exit code."""
-    from ahrs_lab.cli.analysis.outcome import run_kind
-    from ahrs_lab.laboratory.analyses.transfer_alignment import TRANSFER_ALIGNMENT
+    from ahrs_lab.laboratory.analyses.transfer_alignment import KIND
 
     keys = ["method", *(key for key, _ in _NUMBERS), "reference_segment", "unit_segment"]
     settings = {key: getattr(arguments, key) for key in keys if getattr(arguments, key) is not None}
     if arguments.lever is not None:
         settings |= {f"lever_{axis}_m": value for axis, value in zip("xyz", arguments.lever, strict=True)}
-    return run_kind(TRANSFER_ALIGNMENT, (arguments.reference, arguments.unit), settings, arguments)
+    return run_kind(KIND, (arguments.reference, arguments.unit), settings, arguments)

@@ -26,7 +26,7 @@ def analyses() -> tuple[AnalysisKind, ...]:
         navigation.KIND,
         error_propagation.KIND,
         alignment.KIND,
-        transfer_alignment.TRANSFER_ALIGNMENT,
+        transfer_alignment.KIND,
         installation.CALIBRATE,
         installation.COMPENSATE,
     )

@@ -152,7 +152,7 @@ def _settings() -> tuple[Setting, ...]:
     )
 
 
-TRANSFER_ALIGNMENT = AnalysisKind(
+KIND = AnalysisKind(
     key="transfer-align",
     name=Message("Alignment against a reference system"),
     explains=Message(

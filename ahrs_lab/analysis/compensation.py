@@ -8,7 +8,6 @@ other).
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -25,18 +24,16 @@ from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.earth import STANDARD_GRAVITY_MPS2, earth_rate_enu_dps
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.imu_calibration import ImuCalibration
-from ahrs_lab.recording.archive import pack
 from ahrs_lab.recording.read import RecordedSegment, Recording
 from ahrs_lab.recording.samples import ACCEL, ANGLE, GYRO, Samples
 from ahrs_lab.recording.segment import RecordingHeader, Segment
-from ahrs_lab.recording.write_whole import write_recording
+from ahrs_lab.recording.write_whole import write_bundle
 
 Array = NDArray[np.float64]
 
 NOTE = "compensation"
 """Table of the compensated recording's header that says where it comes from."""
 NOMINAL_ACCEL_SCALE = {"m/s^2": 1.0, "g": 1.0 / STANDARD_GRAVITY_MPS2}
-ARCHIVE_SUFFIX = ".ahrsrec"
 UNLIKE_GRAVITY = 0.05
 
 
@@ -131,12 +128,7 @@ class Compensated:
 
     def write(self, folder: Path) -> None:
         """As a recording bundle in a new folder, or packed where the name ends in ``.ahrsrec``."""
-        if folder.suffix.lower() != ARCHIVE_SUFFIX:
-            write_recording(folder, self.header, self.segments)
-            return
-        with tempfile.TemporaryDirectory() as beside:
-            write_recording(Path(beside) / "recording", self.header, self.segments)
-            pack(Path(beside) / "recording", folder)
+        write_bundle(folder, self.header, self.segments)
 
 
 def compensate_recording(

@@ -33,6 +33,8 @@ LEVEL_LIMIT_DEG = 1.0
 """A carrier further from level than this was not levelled."""
 MOVED_DEG = 0.05
 BLOCKS = 10
+NOTE = "installation"
+"""The table of ``recording.toml`` that tells of a compensation."""
 _NAMES: tuple[Names, ...] = ("heading", "pitch", "roll")
 _LIMITS_DEG = {"heading": 360.0, "pitch": 90.0, "roll": 180.0}
 
@@ -249,7 +251,12 @@ def compensate_angles(
 
 
 def compensate_recording(recording: Recording, bracket: Calibrated) -> CarrierRecord:
-    """All usable segments that have the angles."""
+    """All usable segments that have the angles; raises InputError where it was done already."""
+    if NOTE in recording.header.notes:
+        raise InputError(
+            "The recording's angles are the carrier's already: it has been compensated for installation "
+            "angles. Take the original."
+        )
     parts = _angles_segments(recording, None)
     rows = [one.samples.matrix(ATTITUDE) for one in parts]
     given, times = np.concatenate(rows), np.concatenate([one.samples["t_s"] for one in parts])

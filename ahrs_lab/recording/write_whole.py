@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import tempfile
+from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
 
 from ahrs_lab.errors import InputError
-from ahrs_lab.recording.bundle_source import HEADER_FILE
+from ahrs_lab.recording.archive import pack
+from ahrs_lab.recording.bundle_source import ARCHIVE_SUFFIX, HEADER_FILE
 from ahrs_lab.recording.bundle_toml import compose
 from ahrs_lab.recording.csv_file import write_csv
 from ahrs_lab.recording.machine_faults import machine_faults, write_atomically
@@ -39,3 +41,13 @@ def write_recording(
             written.append(segment)
         document = compose(header, written)
         write_atomically(folder / HEADER_FILE, partial(tomli_w.dump, document))
+
+
+def write_bundle(target: Path, header: RecordingHeader, segments: Sequence[tuple[Segment, Samples]]) -> None:
+    """As a recording in a new folder, or packed where the name ends in ``.ahrsrec``."""
+    if target.suffix.lower() != ARCHIVE_SUFFIX:
+        write_recording(target, header, segments)
+        return
+    with tempfile.TemporaryDirectory() as beside:
+        write_recording(Path(beside) / "recording", header, segments)
+        pack(Path(beside) / "recording", target)

@@ -135,7 +135,9 @@ def test_every_row_becomes_the_carriers_and_the_copy_says_how(tmp_path: Path) ->
         copy.segments[1].samples["extra"], read_bundle(source).segments[1].samples["extra"]
     )
     assert copy.header.notes["installation"]["bracket_deg"] == {"heading": 5.0, "pitch": 2.0, "roll": 3.0}
-    assert copy.header.notes["corrected_from"] == read_bundle(source).sha256
+    assert copy.header.notes["installation"]["source_sha256"] == read_bundle(source).sha256
+    with pytest.raises(InputError, match="carrier's already"):
+        compensate_recording(copy, known_bracket(5.0, 2.0, 3.0))
 
 
 def test_gimbal_lock_is_counted_and_explained(tmp_path: Path) -> None:

@@ -58,7 +58,10 @@ def test_a_recording_in_a_corrected_recording_out(tmp_path: Path, capsys: Captur
     assert data["first"]["heading_deg"] == pytest.approx(340.0)
     assert read_bundle(out).segments[0].samples["heading_deg"][0] == pytest.approx(340.0)
     assert main(["installation", "compensate", str(source), "--bracket-heading", "1", "--out", str(out)]) == 2
-    assert "holds a recording already" in capsys.readouterr().err
+    assert "is not empty" in capsys.readouterr().err
+    packed = tmp_path / "out.ahrsrec"
+    answer(capsys, "compensate", str(source), "--bracket-heading", "10", "--out", str(packed))
+    assert read_bundle(packed).segments[0].samples["heading_deg"][0] == pytest.approx(340.0)
     level = answer(capsys, "calibrate", str(source), "--heading-error", "10")
     assert level["bracket_deg"]["heading"] == pytest.approx(10.0)
 

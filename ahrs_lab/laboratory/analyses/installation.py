@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ahrs_lab.analysis.installation import (
+    NOTE,
     bracket_from_json,
     bracket_to_json,
     calibrate_bracket,
@@ -21,8 +23,8 @@ from ahrs_lab.inertial.installation import Calibrated, LevelCarrier
 from ahrs_lab.laboratory.analyses.kinds import AnalysisKind, Outcome, Setting, Value
 from ahrs_lab.laboratory.evaluation import SOFTWARE, write_json
 from ahrs_lab.messages import Message
-from ahrs_lab.recording.corrected_copy import write_corrected
 from ahrs_lab.recording.read import Recording, read_bundle
+from ahrs_lab.recording.write_whole import write_bundle
 
 _DIRECTIONS = (
     ("box-in-aircraft", Message("of the box relative to the carrier")),
@@ -41,14 +43,22 @@ def read_bracket(path: Path) -> Calibrated:
     return bracket_from_json(data, str(path))
 
 
-def write_compensated(recording: Recording, bracket: Calibrated, folder: Path) -> None:
-    """A copy of ``recording`` with the carrier's angles; the bracket and the software stand in its notes."""
-    what = {"software": SOFTWARE, **_without_null(bracket_to_json(bracket))}
-    write_corrected(
-        recording,
-        folder,
-        lambda one: compensated_samples(one, bracket.angles),
-        {"installation": what},
+def write_compensated(recording: Recording, bracket: Calibrated, target: Path) -> None:
+    """A copy of ``recording`` with the carrier's angles, in a new folder or as an ``.ahrsrec``; the bracket,
+    the software and the original's sha256 stand in its notes."""
+    what = {
+        "source_sha256": recording.sha256,
+        "software": SOFTWARE,
+        **_without_null(bracket_to_json(bracket)),
+    }
+    write_bundle(
+        target,
+        replace(recording.header, notes={**recording.header.notes, NOTE: what}),
+        [
+            (one.segment, compensated_samples(one, bracket.angles))
+            for one in recording.segments
+            if len(one.samples)
+        ],
     )
 
 

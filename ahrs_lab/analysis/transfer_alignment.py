@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation, Slerp
 
-from ahrs_lab.analysis.inertial_record import InertialRecord, records
+from ahrs_lab.analysis.navigation_record import NavigationRecord, navigation_record
 from ahrs_lab.analysis.transfer_alignment_result import TransferResult
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.attitude import attitude_matrix
@@ -36,11 +36,11 @@ from ahrs_lab.inertial.transfer_alignment_motion import Increments, Motion
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.read import RecordedSegment, Recording
 from ahrs_lab.recording.samples import ATTITUDE, POSITION, VELOCITY_ENU
+from ahrs_lab.recording.segment import RecordingHeader
 
 Array = NDArray[np.float64]
 
 LEAST_COMPARISONS = 10
-LONGEST_GAP_S = 2.0
 POLAR_LATITUDE_DEG = 85.0
 
 
@@ -54,7 +54,6 @@ class TransferSettings:
     every_s: float = 1.0
     lever_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     reference_segment: str | None = None
-    unit_segment: str | None = None
 
 
 @dataclass(frozen=True)
@@ -74,19 +73,14 @@ class _Track:
 
 def transfer_align(reference: Recording, unit: Recording, settings: TransferSettings) -> TransferResult:
     """Align the unit of one recording against the reference of the other; raises InputError."""
-    record = records(unit, settings.unit_segment)[0].needed_si()
-    record.needed_force()
-    warnings = [*record.warnings, *_gaps(record)]
-    track, found = _track(reference, record, settings)
-    warnings += found
+    record = navigation_record(unit)
+    track, found = _track(reference, unit.header, settings)
+    warnings = [*record.warnings, *found]
     increments = Increments(
-        record.t_s,
-        record.interval_s,
-        record.angle_increments_rad[np.newaxis],
-        record.velocity_increments_mps()[np.newaxis],
+        record.t_s, record.interval_s, record.angle_rad.T[np.newaxis], record.velocity_mps.T[np.newaxis]
     )
     instants = _instants(record, track, settings.every_s)
-    start = _start(record, track, settings)
+    start = _start(record, unit.header, track, settings)
     state, attitude = track.at(instants)
     compared = Reference(
         instants,
@@ -106,29 +100,8 @@ def transfer_align(reference: Recording, unit: Recording, settings: TransferSett
     return TransferResult(aligned, settings.assumed, start.copied, compared, tuple(warnings))
 
 
-def _gaps(record: InertialRecord) -> list[Message]:
-    if not len(record.gaps):
-        return []
-    longest = record.gaps[np.argmax(record.interval_s[record.gaps])]
-    if record.interval_s[longest] > LONGEST_GAP_S:
-        raise InputError(
-            "{file}: samples are missing for {gap} s before t = {time} s. A unit cannot be navigated "
-            "through that: cut the recording there.",
-            file=record.segment.file,
-            gap=f"{record.interval_s[longest]:.3f}",
-            time=f"{record.t_s[longest]:.3f}",
-        )
-    return [
-        Message(
-            "{file}: {count} gaps in the unit's samples were bridged by the mean rate across them.",
-            file=record.segment.file,
-            count=len(record.gaps),
-        )
-    ]
-
-
 def _track(
-    reference: Recording, record: InertialRecord, settings: TransferSettings
+    reference: Recording, unit: RecordingHeader, settings: TransferSettings
 ) -> tuple[_Track, list[Message]]:
     """The reference's columns; what it lacks and the unit's ``[initial]`` or the site has, from there."""
     segment = _reference_segment(reference, settings)
@@ -161,7 +134,7 @@ def _track(
     values = {name: samples[name][good] for name in used}
     _check_values(segment, values)
     if any(name not in values for name in POSITION):
-        initial = record.header.initial or {}
+        initial = unit.initial or {}
         site = reference.header.site
         place = (site.latitude_deg, site.longitude_deg or 0.0, site.altitude_m)
         warnings.append(
@@ -248,7 +221,7 @@ def _differentiated(t_s: Array, values: Mapping[str, Array]) -> dict[str, Array]
     }
 
 
-def _instants(record: InertialRecord, track: _Track, every_s: float) -> Array:
+def _instants(record: NavigationRecord, track: _Track, every_s: float) -> Array:
     """Ends of the unit's intervals at which the reference shows something, at least ``every_s`` apart."""
     if not (isfinite(every_s) and every_s > 0):
         raise InputError("The time between comparisons is {every} s: it has to be above 0.", every=every_s)
@@ -264,7 +237,7 @@ def _instants(record: InertialRecord, track: _Track, every_s: float) -> Array:
         )
     near = np.clip(np.searchsorted(record.t_s, track.t_s), 1, len(record.t_s) - 1)
     near -= track.t_s - record.t_s[near - 1] < record.t_s[near] - track.t_s
-    close = np.abs(record.t_s[near] - track.t_s) <= 0.51 / record.header.device.sample_rate_hz
+    close = np.abs(record.t_s[near] - track.t_s) <= 0.51 * float(np.median(record.interval_s))
     ends = record.t_s[np.unique(near[close])]
     chosen: list[float] = []
     for t_s in ends:
@@ -281,9 +254,11 @@ def _instants(record: InertialRecord, track: _Track, every_s: float) -> Array:
     return np.array(chosen)
 
 
-def _start(record: InertialRecord, track: _Track, settings: TransferSettings) -> Start:
+def _start(
+    record: NavigationRecord, unit: RecordingHeader, track: _Track, settings: TransferSettings
+) -> Start:
     """The unit's state at its start, or where the reference begins if that is what it is copied from."""
-    initial = record.header.initial or {}
+    initial = unit.initial or {}
     own_attitude = all(name in initial for name in ATTITUDE)
     begin = float(record.t_s[0] - record.interval_s[0])
     whole = own_attitude and "velocity_enu_mps" in initial and all(name in initial for name in POSITION)
@@ -306,7 +281,8 @@ def _start(record: InertialRecord, track: _Track, settings: TransferSettings) ->
     copied = Motion(np.asarray(C), state[:, :3], state[:, 3], state[:, 4], state[:, 5])
     if any(settings.lever_m):
         row = int(np.searchsorted(record.t_s, begin + 1e-6))
-        copied = carried_over(copied, copied.C_bn, record.rate[row : row + 1], np.array(settings.lever_m))
+        rate = record.angle_rad[:, row] / record.interval_s[row]
+        copied = carried_over(copied, copied.C_bn, rate[np.newaxis], np.array(settings.lever_m))
     place = [np.array([_number(initial, name)]) if name in initial else None for name in POSITION]
     velocity = _velocity(initial)
     motion = Motion(

@@ -251,6 +251,10 @@ def shifted(by: float) -> Callable[[Samples], Samples]:
     return lambda s: s.with_columns({"t_s": s["t_s"] + by})
 
 
+def without_force(s: Samples) -> Samples:
+    return s.with_columns({"accel_x": np.full(len(s), np.nan)})
+
+
 def holed(s: Samples) -> Samples:
     keep = (s["t_s"] < 30) | (s["t_s"] > 33)
     return Samples({name: column[keep] for name, column in s.columns.items()})
@@ -278,14 +282,14 @@ def holed(s: Samples) -> Samples:
             "near a pole",
         ),
         (None, without("accel_z"), "velocity", {}, "no accelerometer"),
-        (None, holed, "velocity", {}, "samples are missing for 3"),
+        (None, without_force, "velocity", {}, "not one row has numbers"),
+        (None, holed, "velocity", {}, "too long to navigate over"),
         (None, lambda s: s.with_columns({n: s[n] / 9.8 for n in ACCEL}), "velocity", {}, "look like g"),
         (None, None, "velocity", {"velocity_noise_mps": 0.0}, "above 0"),
         (None, None, "velocity", {"level_deg": float("nan")}, "above 0"),
         (None, None, "velocity", {"every_s": -1.0}, "above 0"),
         (None, None, "angles", {}, "no method angles"),
         (None, None, "velocity", {"reference_segment": "x"}, "has no segment x"),
-        (None, None, "velocity", {"unit_segment": "x"}, "no segment x"),
     ],
 )
 def test_what_cannot_be_aligned_is_told(
@@ -315,7 +319,7 @@ def test_a_short_gap_is_bridged_and_told(tmp_path: Path) -> None:
         return Samples({name: column[keep] for name, column in s.columns.items()})
 
     data = aligned(reference(tmp_path), unit(tmp_path, change=gap)).data
-    assert any("bridged" in warning for warning in data["warnings"])
+    assert any("are bridged" in warning for warning in data["warnings"])
 
 
 def test_a_lever_arm_between_the_systems_is_taken_out(tmp_path: Path) -> None:

@@ -49,7 +49,6 @@ def options(parser: argparse.ArgumentParser) -> None:
         help="the unit's place from the reference's along the unit's axes, m (0 0 0)",
     )
     parser.add_argument("--reference-segment", metavar="FILE", help="which of the reference's (the first)")
-    parser.add_argument("--unit-segment", metavar="FILE", help="which of the unit's (the first)")
     out_option(parser)
 
 
@@ -57,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Align; returns the exit code."""
     from ahrs_lab.laboratory.analyses.transfer_alignment import KIND
 
-    keys = ["method", *(key for key, _ in _NUMBERS), "reference_segment", "unit_segment"]
+    keys = ["method", *(key for key, _ in _NUMBERS), "reference_segment"]
     settings = {key: getattr(arguments, key) for key in keys if getattr(arguments, key) is not None}
     if arguments.lever is not None:
         settings |= {f"lever_{axis}_m": value for axis, value in zip("xyz", arguments.lever, strict=True)}

@@ -99,7 +99,6 @@ def _run(bundles: Sequence[Path], settings: Mapping[str, Value]) -> Outcome:
         float(settings["every_s"]),
         (float(settings["lever_x_m"]), float(settings["lever_y_m"]), float(settings["lever_z_m"])),
         str(settings["reference_segment"]) or None,
-        str(settings["unit_segment"]) or None,
     )
     result = transfer_align(read_bundle(bundles[0]), read_bundle(bundles[1]), chosen)
     aligned = result.aligned
@@ -148,7 +147,6 @@ def _settings() -> tuple[Setting, ...]:
             for axis in "xyz"
         ),
         Setting("reference_segment", Message("segment of the reference"), "text", ""),
-        Setting("unit_segment", Message("segment of the unit"), "text", ""),
     )
 
 

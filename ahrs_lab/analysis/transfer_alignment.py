@@ -41,6 +41,8 @@ from ahrs_lab.recording.segment import RecordingHeader
 Array = NDArray[np.float64]
 
 LEAST_COMPARISONS = 10
+UNLIKE_NIS = 225.0
+"""Differences of fifteen times their standard deviation are no matter of noise settings."""
 POLAR_LATITUDE_DEG = 85.0
 
 
@@ -91,13 +93,25 @@ def transfer_align(reference: Recording, unit: Recording, settings: TransferSett
         None if attitude is None else attitude[np.newaxis],
     )
     lever = np.array(settings.lever_m) if any(settings.lever_m) else None
-    aligned = align(increments, compared, start, settings.method, settings.assumed, lever)
-    if not np.all(np.isfinite(aligned.misalignment)):
-        raise InputError(
-            "The alignment ran out of all bounds: are both recordings of the same carrier, their columns "
-            "in the units of recording.toml, and the unit's axes x right, y forward, z up?"
-        )
-    return TransferResult(aligned, settings.assumed, start.copied, compared, tuple(warnings))
+    try:
+        # what runs out of bounds is told below, not by numpy
+        with np.errstate(all="ignore"):
+            aligned = align(increments, compared, start, settings.method, settings.assumed, lever)
+    except (np.linalg.LinAlgError, ValueError) as error:
+        raise _unlike() from error
+    result = TransferResult(aligned, settings.assumed, start.copied, compared, tuple(warnings))
+    nis, expected, _, _ = result.nis
+    if not nis < UNLIKE_NIS * expected:
+        raise _unlike()
+    return result
+
+
+def _unlike() -> InputError:
+    return InputError(
+        "The recordings contradict each other by far more than their assumed noise: are both of the same "
+        "carrier and on one time base, their columns in the units of recording.toml, and the unit's axes x "
+        "right, y forward, z up?"
+    )
 
 
 def _track(

@@ -76,7 +76,7 @@ class TransferResult:
         between = Rotation.from_matrix(C @ self.reference.C_bn[0, -1].T).as_rotvec()
         level_u = np.hypot(aligned.misalignment_u[0, -1, :2], self.assumed.attitude_noise)
         share = float(azimuth_share(aligned.motion.C_bn)[0])
-        azimuth_u = share * aligned.estimate_u[0, -1, AZIMUTH]
+        azimuth_u = abs(share) * aligned.estimate_u[0, -1, AZIMUTH]
         # heading is clockwise, the rotation about up is not
         return np.array([*between[:2], -share * aligned.estimate[0, -1, AZIMUTH]]), np.array(
             [*level_u, azimuth_u]

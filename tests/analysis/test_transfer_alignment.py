@@ -261,6 +261,23 @@ def holed(s: Samples) -> Samples:
 
 
 @pytest.mark.parametrize(
+    "change",
+    [
+        lambda s: s.with_columns({"accel_x": s["accel_z"], "accel_z": s["accel_x"]}),
+        lambda s: s.with_columns({name: np.radians(s[name]) for name in GYRO}),
+        lambda s: s.with_columns({"gyro_x": s["gyro_x"] + 1e5}),
+    ],
+    ids=["axes", "units", "nonsense"],
+)
+@pytest.mark.parametrize("method", METHODS)
+def test_recordings_that_contradict_each_other_are_refused(
+    tmp_path: Path, change: Callable[[Samples], Samples], method: str
+) -> None:
+    with pytest.raises(InputError, match="contradict each other"):
+        aligned(reference(tmp_path), unit(tmp_path, change=change), method)
+
+
+@pytest.mark.parametrize(
     ("of_reference", "of_unit", "method", "settings", "what"),
     [
         (without("vn_mps"), None, "velocity", {}, "no column vn_mps, which the method velocity"),

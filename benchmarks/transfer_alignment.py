@@ -5,9 +5,11 @@
 For each method so many units fly one S-turn, a change of speed and a turn, each with errors of its own drawn
 from what the filter assumes. Printed: the mean NEES per state and NIS per number compared (both 1 where the
 filter knows what it does) with the band that holds 95 % of such means, and of how many units the true
-misalignment lies within 2σ. Speed: comparisons a second of the whole alignment (navigation and filter, units
-side by side), and the ratio to filterpy's predict and update alone, of the same size, one unit after the
-other on the same machine in the same run; left out, with the reason, where it is not installed."""
+misalignment lies within 2σ. An error that is considered and not estimated keeps a unit's innovations
+together, so that its NIS scatters more than the band, which takes them as independent. Speed: comparisons a
+second of the whole alignment (navigation and filter, units side by side), and the ratio to filterpy's
+predict and update alone, of the same size, one unit after the other on the same machine in the same run;
+left out, with the reason, where it is not installed."""
 
 from __future__ import annotations
 

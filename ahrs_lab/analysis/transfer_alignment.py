@@ -8,7 +8,7 @@ start is how its case stands against the reference's."""
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any
 
@@ -23,12 +23,16 @@ from ahrs_lab.inertial.attitude import attitude_matrix
 from ahrs_lab.inertial.transfer_alignment import (
     Reference,
     Start,
+    TransferAlignment,
     align,
     carried_over,
 )
 from ahrs_lab.inertial.transfer_alignment_model import (
+    ACCEL_BIAS,
     EARTH_RADIUS_M,
+    GYRO_BIAS,
     METHODS,
+    MOUNTING,
     Assumptions,
     MethodName,
 )
@@ -41,6 +45,9 @@ from ahrs_lab.recording.segment import RecordingHeader
 Array = NDArray[np.float64]
 
 LEAST_COMPARISONS = 10
+WIDENINGS = 2
+FAR_BEYOND = 2.5
+"""An estimate beyond this many assumed standard deviations contradicts the assumption."""
 UNLIKE_NIS = 225.0
 """Differences of fifteen times their standard deviation are no matter of noise settings."""
 POLAR_LATITUDE_DEG = 85.0
@@ -93,17 +100,62 @@ def transfer_align(reference: Recording, unit: Recording, settings: TransferSett
         None if attitude is None else attitude[np.newaxis],
     )
     lever = np.array(settings.lever_m) if any(settings.lever_m) else None
-    try:
-        # what runs out of bounds is told below, not by numpy
-        with np.errstate(all="ignore"):
-            aligned = align(increments, compared, start, settings.method, settings.assumed, lever)
-    except (np.linalg.LinAlgError, ValueError) as error:
-        raise _unlike() from error
-    result = TransferResult(aligned, settings.assumed, start.copied, compared, tuple(warnings))
+    assumed = settings.assumed
+    widened: dict[str, Message] = {}
+    for attempt in range(WIDENINGS + 1):
+        try:
+            # what runs out of bounds is told below, not by numpy
+            with np.errstate(all="ignore"):
+                aligned = align(increments, compared, start, settings.method, assumed, lever)
+        except (np.linalg.LinAlgError, ValueError) as error:
+            raise _unlike() from error
+        wider, told = _widened(aligned, assumed, start.copied)
+        if not told or attempt == WIDENINGS:
+            break
+        assumed, widened = wider, widened | told
+    result = TransferResult(aligned, assumed, start.copied, compared, (*warnings, *widened.values()))
     nis, expected, _, _ = result.nis
     if not nis < UNLIKE_NIS * expected:
         raise _unlike()
     return result
+
+
+def _widened(
+    aligned: TransferAlignment, assumed: Assumptions, copied: bool
+) -> tuple[Assumptions, dict[str, Message]]:
+    """What was found far beyond what was assumed of it becomes the assumption, and is told."""
+    degree, per_hour = float(np.radians(1.0)), float(np.radians(1.0)) / 3600.0
+    at_start = aligned.misalignment_at_start[0]
+    found = aligned.estimate[0, -1]
+    method = aligned.method
+    own = not (copied and method.needs_attitude)
+    candidates = (
+        (GYRO_BIAS.start in method.estimated, "gyro_bias", found[GYRO_BIAS], per_hour, "°/h", _GYRO),
+        (ACCEL_BIAS.start in method.estimated, "accel_bias", found[ACCEL_BIAS], 1e-3, "mm/s²", _ACCEL),
+        (MOUNTING.start in method.estimated, "mounting", found[MOUNTING], degree, "°", _MOUNTING),
+        (own, "level", at_start[:2], degree, "°", _LEVEL),
+        (own, "azimuth", at_start[2:], degree, "°", _AZIMUTH),
+    )
+    changes: dict[str, float] = {}
+    told: dict[str, Message] = {}
+    for counts, field, values, unit, name, label in candidates:
+        largest, known = float(np.max(np.abs(values))), float(getattr(assumed, field))
+        if counts and np.isfinite(largest) and largest > FAR_BEYOND * known:
+            changes[field] = largest
+            told[field] = Message(
+                "{what}: {found} {unit} was found, which the assumption does not allow; so much is assumed.",
+                what=label,
+                found=f"{largest / unit:.3g}",
+                unit=name,
+            )
+    return replace(assumed, **changes), told
+
+
+_GYRO = Message("the unit's gyro bias")
+_ACCEL = Message("the unit's accelerometer bias")
+_MOUNTING = Message("mounting of the unit's case")
+_LEVEL = Message("misalignment at the start, level")
+_AZIMUTH = Message("misalignment at the start, azimuth")
 
 
 def _unlike() -> InputError:

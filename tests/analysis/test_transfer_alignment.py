@@ -172,6 +172,17 @@ def test_no_manoeuvre_is_told(tmp_path: Path) -> None:
     assert "S-turns" in report_text(outcome.report)
 
 
+def test_a_bias_far_beyond_the_assumption_widens_it(tmp_path: Path) -> None:
+    def biased(s: Samples) -> Samples:
+        return s.with_columns({"gyro_y": s["gyro_y"] + 120.0 / 3600})
+
+    data = aligned(reference(tmp_path), unit(tmp_path, change=biased), "velocity-attitude").data
+    assert "gyro bias: 11" in data["warnings"][0]
+    away = np.array(data["gyro_bias_deg_per_h"]) - GYRO_BIAS_DEG_PER_H - [0.0, 120.0, 0.0]
+    assert np.all(np.abs(away) < 3.5 * np.array(data["gyro_bias_standard_uncertainty_deg_per_h"]))
+    assert data["mounting_deg"] == pytest.approx(np.degrees(MOUNTING), abs=0.07)
+
+
 def test_too_little_noise_assumed_is_told(tmp_path: Path) -> None:
     outcome = aligned(reference(tmp_path), unit(tmp_path), velocity_noise_mps=0.005)
     assert "larger than assumed" in outcome.data["warnings"][0]

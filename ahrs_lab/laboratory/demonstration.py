@@ -244,9 +244,9 @@ def run_demonstration(
     with OutputFolder(out):
         _refuse_foreign(out)
     with Laboratory() as laboratory:
-        laboratory.prepare_demo()
+        made = laboratory.prepare_demo()
         people = {role: _person(laboratory, role) for role in ("operator", "verifier", "approver")}
-        actor = laboratory.sign_in(people["operator"].name, PASSWORD)
+        actor = made or laboratory.sign_in(people["operator"].name, PASSWORD)
         ids = (people["operator"].id, people["verifier"].id, people["approver"].id)
         draft = _draft(laboratory, STANDARD_PLAN, ids, _plan_text(plan))
         number = _unfinished(laboratory, out, draft.plan_toml)
@@ -257,11 +257,11 @@ def run_demonstration(
         _measure(laboratory, number, actor, speed, on_event)
         on_stage("evaluating")
         result = laboratory.finish_run(number, actor)
-        files = {"recording": laboratory.bundle(number), **write_files(result, out)}
+        files = {"recording": laboratory.bundle(number), **write_files(result, out, record=False)}
         files["original_record"] = laboratory.original_record(number)
         on_stage("certificate and signatures")
         for role in ("operator", "verifier", "approver"):
-            signer = laboratory.sign_in(people[role].name, PASSWORD)
+            signer = actor if role == "operator" else laboratory.sign_in(people[role].name, PASSWORD)
             signed = laboratory.sign(number, role, signer, PASSWORD)
         files["certificate"] = out / "certificate.pdf"
         files["certificate"].write_bytes(signed.read_bytes())

@@ -61,30 +61,23 @@ def evaluate_bundle(
     )
 
 
-def write_files(result: AnyResult, folder: Path) -> dict[str, Path]:
-    """Leave ``result.json``, ``budget.csv``, ``plots.pdf`` and ``original-record.pdf`` in ``folder``; returns
-    where they are. Of an IMU the result, which is its calibration set, and the record."""
+def write_files(result: AnyResult, folder: Path, *, record: bool = True) -> dict[str, Path]:
+    """Leave ``result.json``, ``budget.csv``, ``plots.pdf`` and, with ``record``, ``original-record.pdf`` in
+    ``folder``; returns where they are. Of an IMU the result, which is its calibration set, and the record."""
     from ahrs_lab.certificates.original_record import original_record_pdf
     from ahrs_lab.certificates.plots import plots_pdf
     from ahrs_lab.laboratory.budget_csv import save_budget_csv
 
-    record = folder / "original-record.pdf"
-    if isinstance(result, ImuResult):
-        with OutputFolder(folder):
-            write_json(to_json(result), folder / "result.json")
-            original_record_pdf(result, record)
-        return {"result": folder / "result.json", "original_record": record}
-    files = {
-        "result": folder / "result.json",
-        "budget": folder / "budget.csv",
-        "plots": folder / "plots.pdf",
-        "original_record": record,
-    }
+    files = {"result": folder / "result.json"}
     with OutputFolder(folder):
         write_json(to_json(result), files["result"])
-        save_budget_csv(result, files["budget"])
-        plots_pdf(result, files["plots"])
-        original_record_pdf(result, files["original_record"])
+        if not isinstance(result, ImuResult):
+            files |= {"budget": folder / "budget.csv", "plots": folder / "plots.pdf"}
+            save_budget_csv(result, files["budget"])
+            plots_pdf(result, files["plots"])
+        if record:
+            files["original_record"] = folder / "original-record.pdf"
+            original_record_pdf(result, files["original_record"])
     return files
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,13 @@ from numpy.typing import NDArray
 
 from ahrs_lab.errors import InputError, MachineError
 from ahrs_lab.messages import Message
-from ahrs_lab.recording.bundle_source import HEADER_FILE, BundleSource, content_sha256, open_source
+from ahrs_lab.recording.bundle_source import (
+    HEADER_FILE,
+    BundleSource,
+    FolderSource,
+    content_sha256,
+    open_source,
+)
 from ahrs_lab.recording.bundle_toml import MAX_BYTES, parse
 from ahrs_lab.recording.clean_rows import CleanRows, clean_rows
 from ahrs_lab.recording.completeness import PROCEDURE, missing_segments
@@ -30,6 +37,8 @@ from ahrs_lab.recording.raw_segment import RawSegment, SegmentFileError
 from ahrs_lab.recording.samples import Samples
 from ahrs_lab.recording.segment import DeviceDescription, RecordingHeader, Segment
 from ahrs_lab.recording.table_check import check_table
+
+_READERS = 3
 
 
 @dataclass(frozen=True)
@@ -150,9 +159,11 @@ def _read(source: BundleSource) -> Recording:
                 file=segment.file,
             )
     general = missing_segments(segments) if header.procedure == PROCEDURE else ()
-    with ThreadPoolExecutor(max_workers=1, thread_name_prefix="recording-hash") as pool:
+    with ThreadPoolExecutor(max_workers=_READERS, thread_name_prefix="recording-read") as pool:
         digest = pool.submit(_digest, source.path, [segment.file for segment in segments])
-        recorded = tuple(_read_segment(source, segment, header) for segment in segments)
+        # An archive's handle is not for two threads.
+        each = pool.map if isinstance(source, FolderSource) else map
+        recorded = tuple(each(partial(_read_segment, source, header=header), segments))
         return Recording(header, recorded, digest.result(), general, source.path)
 
 

@@ -93,9 +93,9 @@ def test_commands_and_options_that_are_named_exist(page: Path) -> None:
         match = re.search(r"\bahrs-lab ([a-z][a-z-]*)(.*)", code)
         if match:
             assert match[1] in known, code
-            assert set(re.findall(r"--[a-z][a-z-]*", match[2])) <= known[match[1]], code
+            assert set(re.findall(r"--[a-z][a-z0-9-]*", match[2])) <= known[match[1]], code
         elif code.startswith("--"):
-            assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", code)) <= every, code
+            assert set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", code)) <= every, code
 
 
 def settings() -> set[str]:

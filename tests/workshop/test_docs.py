@@ -44,13 +44,22 @@ def code_of(page: Path) -> list[str]:
 
 
 def commands() -> dict[str, set[str]]:
-    """Each command of ``ahrs-lab`` with its options."""
-    actions = cli._parser()._actions
-    found = next(action for action in actions if isinstance(action, argparse._SubParsersAction))
+    """Each command of ``ahrs-lab`` with its options, and those of what it is divided into."""
+    return {name: options_of(parser) for name, parser in parts_of(cli._parser()).items()}
+
+
+def parts_of(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
     return {
-        name: {option for action in parser._actions for option in action.option_strings}
-        for name, parser in found.choices.items()
+        name: part
+        for action in parser._actions
+        if isinstance(action, argparse._SubParsersAction)
+        for name, part in action.choices.items()
     }
+
+
+def options_of(parser: argparse.ArgumentParser) -> set[str]:
+    own = {option for action in parser._actions for option in action.option_strings}
+    return own.union(*map(options_of, parts_of(parser).values()))
 
 
 def test_pages_are_short_and_listed() -> None:

@@ -26,6 +26,7 @@ from ahrs_lab.laboratory.laboratory import Laboratory
 from ahrs_lab.messages import Message
 from ahrs_lab.simulation.clock import SimulatedClock
 from ahrs_lab.ui.application import Screen
+from ahrs_lab.ui.pages.analysis.page import AnalysisPage
 from ahrs_lab.ui.pages.results.page import ResultsPage
 from ahrs_lab.ui.run.model import RunModel
 
@@ -95,9 +96,23 @@ class Photographer:
         go("certificate")
         self.until(lambda: not desk.background.busy, "the certificate is drawn")
         self.take("certificate")
-        for page in ("bench", "setup"):
+        self._analyses()
+        for page in ("bench", "instruments", "setup"):
             go(page)
             self.take(page)
+
+    def _analyses(self) -> None:
+        """The job's own recording, and one without any."""
+        self._screen.workspace.go_to("analyse")
+        page = self._screen.window.findChild(AnalysisPage)
+        assert page is not None
+        self.until(lambda: page.workbench is not None, "the analyses are listed")
+        assert page.workbench is not None
+        for key in ("allan", "error-propagation"):
+            page.workbench.choose(key)
+            page.workbench.start()
+            self.until(lambda: not self._screen.desk.background.busy, f"{key} is done")
+            self.take(f"analyse-{key}")
 
     def _result_tabs(self) -> None:
         results = self._screen.window.findChild(ResultsPage)

@@ -1111,12 +1111,12 @@
         <translation>拟合残差。条件数：位置 {positions}，转动 {turns}。</translation>
     </message>
     <message>
-        <source>Scale factor E₁</source>
-        <translation>标度因数 E₁</translation>
+        <source>Scale factor E1</source>
+        <translation>标度因数 E1</translation>
     </message>
     <message>
-        <source>Zero offset (constant drift) B₀</source>
-        <translation>零偏（常值漂移）B₀</translation>
+        <source>Zero offset (constant drift) B0</source>
+        <translation>零偏（常值漂移）B0</translation>
     </message>
     <message>
         <source>Specific-force coefficients Bf</source>
@@ -1127,12 +1127,12 @@
         <translation>失准角 E</translation>
     </message>
     <message>
-        <source>Scale factor K₁</source>
-        <translation>标度因数 K₁</translation>
+        <source>Scale factor K1</source>
+        <translation>标度因数 K1</translation>
     </message>
     <message>
-        <source>Zero offset K₀</source>
-        <translation>零偏 K₀</translation>
+        <source>Zero offset K0</source>
+        <translation>零偏 K0</translation>
     </message>
     <message>
         <source>Misalignment K</source>
@@ -1155,8 +1155,8 @@
         <translation>警告与说明</translation>
     </message>
     <message>
-        <source>N = E₁·[B₀ + Bf·f + (I + E)·ω], N_A = K₁·[K₀ + (I + K)·f], channel by channel. To compensate: f = (I + K)⁻¹·(N_A/K₁ − K₀), then ω = (I + E)⁻¹·(N/E₁ − B₀ − Bf·f).</source>
-        <translation>N = E₁·[B₀ + Bf·f + (I + E)·ω]，N_A = K₁·[K₀ + (I + K)·f]，逐通道相乘。补偿：先 f = (I + K)⁻¹·(N_A/K₁ − K₀)，再 ω = (I + E)⁻¹·(N/E₁ − B₀ − Bf·f)。</translation>
+        <source>N = E1·[B0 + Bf·f + (I + E)·ω], N_A = K1·[K0 + (I + K)·f], channel by channel. To compensate: f = inv(I + K)·(N_A/K1 − K0), then ω = inv(I + E)·(N/E1 − B0 − Bf·f).</source>
+        <translation>N = E1·[B0 + Bf·f + (I + E)·ω]，N_A = K1·[K0 + (I + K)·f]，逐通道相乘。补偿：先 f = inv(I + K)·(N_A/K1 − K0)，再 ω = inv(I + E)·(N/E1 − B0 − Bf·f)。</translation>
     </message>
 </context>
 <context>

@@ -15,6 +15,7 @@ from ahrs_lab.metrology.rounding import format_grouped, round_to_uncertainty
 Array = NDArray[np.float64]
 
 COVERAGE_FACTOR = 2.0
+STANDARD_GRAVITY_MPS2 = 9.80665
 AXES = ("x", "y", "z")
 
 
@@ -36,8 +37,8 @@ def gyro_matrices(result: ImuResult) -> tuple[Matrix, ...]:
     return (
         _matrix("E1", scale, found.E1, u.E1),
         _matrix("B0", "°/h", found.B0, u.B0, 3600.0),
-        _matrix("Bf", "10⁻⁶ (°/s)/(m/s²)", found.Bf, u.Bf, 1e6),
-        _matrix("E", "10⁻⁶ rad", found.E, u.E, 1e6),
+        _matrix("Bf", "(°/h)/g", found.Bf, u.Bf, 3600.0 * STANDARD_GRAVITY_MPS2),
+        _matrix("E", "µrad", found.E, u.E, 1e6),
     )
 
 
@@ -48,7 +49,7 @@ def accel_matrices(result: ImuResult) -> tuple[Matrix, ...]:
     return (
         _matrix("K1", scale, found.K1, u.K1),
         _matrix("K0", "mm/s²", found.K0, u.K0, 1e3),
-        _matrix("K", "10⁻⁶ rad", found.K, u.K, 1e6),
+        _matrix("K", "µrad", found.K, u.K, 1e6),
     )
 
 

@@ -126,16 +126,16 @@ class ImuView(Translated):
 
     def _gyro_names(self) -> dict[str, str]:
         return {
-            "E1": self.tr("Scale factor E₁"),
-            "B0": self.tr("Zero offset (constant drift) B₀"),
+            "E1": self.tr("Scale factor E1"),
+            "B0": self.tr("Zero offset (constant drift) B0"),
             "Bf": self.tr("Specific-force coefficients Bf"),
             "E": self.tr("Misalignment E"),
         }
 
     def _accel_names(self) -> dict[str, str]:
         return {
-            "K1": self.tr("Scale factor K₁"),
-            "K0": self.tr("Zero offset K₀"),
+            "K1": self.tr("Scale factor K1"),
+            "K0": self.tr("Zero offset K0"),
             "K": self.tr("Misalignment K"),
         }
 
@@ -148,8 +148,8 @@ class ImuView(Translated):
         )
         self._formula.setText(
             self.tr(
-                "N = E₁·[B₀ + Bf·f + (I + E)·ω], N_A = K₁·[K₀ + (I + K)·f], channel by channel. "
-                "To compensate: f = (I + K)⁻¹·(N_A/K₁ − K₀), then ω = (I + E)⁻¹·(N/E₁ − B₀ − Bf·f)."
+                "N = E1·[B0 + Bf·f + (I + E)·ω], N_A = K1·[K0 + (I + K)·f], channel by channel. "
+                "To compensate: f = inv(I + K)·(N_A/K1 − K0), then ω = inv(I + E)·(N/E1 − B0 − Bf·f)."
             )
         )
         self.show_result(self._result)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ahrs_lab.analysis.alignment_unit import RADPS_PER_DEG_PER_H
 from ahrs_lab.analysis.report import Cell, Chart, Curve, Report, Table
+from ahrs_lab.analysis.report_cells import paired
 from ahrs_lab.inertial.alignment import Orthogonalisation
 from ahrs_lab.messages import Message
 
@@ -21,8 +22,8 @@ Array = NDArray[np.float64]
 METHOD_NAMES: Mapping[Method, Message] = {
     "coarse": Message("Coarse, analytic"),
     "fine": Message("Fine, least squares over time"),
-    "kalman-open": Message("Kalman filter, open loop (8 states)"),
-    "kalman-closed": Message("Kalman filter, closed loop (10 states)"),
+    "kalman-open": Message("Kalman filter, open loop"),
+    "kalman-closed": Message("Kalman filter, closed loop"),
 }
 ORTHOGONALISATION_NAMES: Mapping[Orthogonalisation, Message] = {
     "rows": Message("Gram–Schmidt over rows, up first"),
@@ -40,16 +41,19 @@ def report_of(alignment: Alignment) -> Report:
     if alignment.biases is not None:
         tables.append(_biases(alignment))
     return Report(
-        Message(
-            "Self-alignment of {file}, {seconds} s at latitude {latitude}°",
-            file=alignment.file,
-            seconds=f"{alignment.duration_s:.0f}",
-            latitude=f"{np.degrees(alignment.place.latitude_rad):.4f}",
-        ),
+        Message("Self-alignment of {file}", file=alignment.file),
         tuple(tables),
         _charts(alignment),
-        _notes(alignment),
+        (_where(alignment), *_notes(alignment)),
         alignment.warnings,
+    )
+
+
+def _where(alignment: Alignment) -> Message:
+    return Message(
+        "At rest for {seconds} s at latitude {latitude}°.",
+        seconds=f"{alignment.duration_s:.0f}",
+        latitude=f"{np.degrees(alignment.place.latitude_rad):.4f}",
     )
 
 
@@ -69,7 +73,7 @@ def _attitudes(alignment: Alignment) -> Table:
 def _row(name: Message, attitude: Attitude) -> tuple[Cell, ...]:
     cells: list[Cell] = [name]
     for angle, uncertainty in zip(attitude.angles_deg, attitude.uncertainty_deg, strict=True):
-        cells += [_rounded(float(angle), float(uncertainty)), f"{uncertainty:.2g}"]
+        cells += paired(float(angle), float(uncertainty), unstated=6)
     return tuple(cells)
 
 
@@ -104,7 +108,7 @@ def _biases(alignment: Alignment) -> Table:
     biases = alignment.biases
     assert biases is not None
     rows = tuple(
-        (axis, f"{gyro:+.4f}", f"{u_gyro:.2g}", f"{accel:+.2e}", f"{u_accel:.2g}")
+        (axis, *paired(gyro, u_gyro), *paired(accel, u_accel))
         for axis, gyro, u_gyro, accel, u_accel in zip(
             "xyz",
             biases.gyro_deg_per_h,
@@ -213,11 +217,3 @@ def _notes(alignment: Alignment) -> tuple[Message, ...]:
             )
         )
     return tuple(notes)
-
-
-def _rounded(value: float, uncertainty: float) -> str:
-    """To one place after the uncertainty's first."""
-    if not uncertainty > 0.0:
-        return f"{value:.6f}"
-    places = int(np.clip(1 - np.floor(np.log10(uncertainty)), 0, 9))
-    return f"{value:.{places}f}"

@@ -14,7 +14,7 @@ from typing import Any, Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ahrs_lab.analysis.inertial_record import TO_MPS2, TO_RADPS, InertialRecord, unit_doubts
+from ahrs_lab.analysis.inertial_record import TO_MPS2, TO_RADPS, InertialRecord, some_of, unit_doubts
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.allan import (
     Counts,
@@ -132,9 +132,9 @@ def longest_at_rest(records: Sequence[InertialRecord]) -> InertialRecord:
     still = [record for record in records if at_rest(record)]
     if not still:
         raise InputError(
-            "The recording has no segment at rest (item static or zero_offset); name one with --segment. "
+            "The recording has no segment at rest (item static or zero_offset); name the segment to take. "
             "There are: {known}.",
-            known=", ".join(record.segment.file for record in records),
+            known=some_of([record.segment.file for record in records]),
         )
     return max(still, key=len)
 

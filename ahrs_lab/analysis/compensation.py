@@ -8,7 +8,7 @@ other).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ from ahrs_lab.analysis.imu_calibration import NOMINAL_RATE_SCALE, site_gravity_m
 from ahrs_lab.analysis.imu_report import DPH, FORMULA
 from ahrs_lab.analysis.imu_segments import at_rest, case_to_enu_of
 from ahrs_lab.analysis.report import Chart, Curve, Report, Table
+from ahrs_lab.analysis.report_cells import column
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.earth import STANDARD_GRAVITY_MPS2, earth_rate_enu_dps
 from ahrs_lab.messages import Message
@@ -299,8 +300,10 @@ def _unlike_gravity(checks: Sequence[StaticCheck], gravity: float) -> list[Messa
 
 
 def _table(checks: Sequence[StaticCheck]) -> Table:
-    def size(vector: Array | None, factor: float) -> str:
-        return "–" if vector is None else f"{factor * float(np.linalg.norm(vector)):.4g}"
+    def sizes(vectors: Iterable[Array | None], factor: float) -> tuple[str, ...]:
+        return column(
+            np.nan if vector is None else factor * float(np.linalg.norm(vector)) for vector in vectors
+        )
 
     head = (
         Message("at rest"),
@@ -309,17 +312,15 @@ def _table(checks: Sequence[StaticCheck]) -> Table:
         Message("force before, mm/s²"),
         Message("force after, mm/s²"),
     )
-    rows = tuple(
-        (
-            check.file,
-            size(check.rate_before_dps, DPH),
-            size(check.rate_after_dps, DPH),
-            size(check.force_before_mps2, 1e3),
-            size(check.force_after_mps2, 1e3),
-        )
-        for check in checks
+    columns = (
+        (check.file for check in checks),
+        sizes((check.rate_before_dps for check in checks), DPH),
+        sizes((check.rate_after_dps for check in checks), DPH),
+        sizes((check.force_before_mps2 for check in checks), 1e3),
+        sizes((check.force_after_mps2 for check in checks), 1e3),
     )
-    return Table(Message("Residual against the Earth's rate and gravity"), head, rows)
+    title = Message("Residual against the Earth's rate and gravity")
+    return Table(title, head, tuple(zip(*columns, strict=True)))
 
 
 def _charts(checks: Sequence[StaticCheck]) -> tuple[Chart, ...]:

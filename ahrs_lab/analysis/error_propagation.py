@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ahrs_lab.analysis.report import Chart, Curve, Mark, Report, Table
+from ahrs_lab.analysis.report_cells import digits
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.earth import EARTH_RATE_RADPS, STANDARD_GRAVITY_MPS2
 from ahrs_lab.inertial.error_dynamics import (
@@ -127,7 +128,7 @@ class ErrorPropagation:
         """The errors in a table, and drawn with the periods as marks."""
         source, series = SOURCES[self.source], self.series()
         rows = tuple(
-            (name, unit, f"{series[key][-1]:.6g}", f"{np.max(np.abs(series[key])):.6g}")
+            (name, unit, digits(series[key][-1]), digits(float(np.max(np.abs(series[key])))))
             for key, name, unit in _SHOWN
         )
         hours = f"{self.hours[-1]:g}"
@@ -153,7 +154,7 @@ class ErrorPropagation:
         )
 
     def _frequencies(self) -> Table:
-        rows = tuple((f"{w:.10e}", f"{2 * np.pi / w / 3600:.4f}") for w in eigenfrequencies_radps(self.place))
+        rows = tuple((f"{w:.5e}", f"{2 * np.pi / w / 3600:.4f}") for w in eigenfrequencies_radps(self.place))
         return Table(Message("Eigenfrequencies"), (Message("rad/s"), Message("period, h")), rows)
 
     def _charts(self, series: dict[str, Array]) -> tuple[Chart, ...]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import floor, log10
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ahrs_lab.analysis.report import Cell, Chart, Curve, Report, Table
+from ahrs_lab.analysis.report_cells import column, digits, paired
 from ahrs_lab.inertial.earth import STANDARD_GRAVITY_MPS2
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.imu_calibration import (
@@ -119,8 +119,9 @@ def coefficient_rows(rate_unit: str, accel_unit: str) -> tuple[CoefficientRow, .
 
 def _gyro_rows(unit: str) -> Iterator[CoefficientRow]:
     per_g = DPH * STANDARD_GRAVITY_MPS2
+    shown = {"deg/s": "(°/s)", "rad/s": "(rad/s)"}.get(unit, unit)
     for i, others in enumerate(OTHERS):
-        yield CoefficientRow("gyro", i, 0, "E1", "", f"{unit}/(°/s)", 1.0, f"{unit}/(°/s)")
+        yield CoefficientRow("gyro", i, 0, "E1", "", f"{unit}/(°/s)", 1.0, f"{shown}/(°/s)")
         yield CoefficientRow("gyro", i, 1, "B0", "", "°/s", DPH, "°/h")
         for j, axis in enumerate(AXES):
             yield CoefficientRow("gyro", i, 2 + j, "Bf", axis, "(°/s)/(m/s²)", per_g, "(°/h)/g")
@@ -129,8 +130,9 @@ def _gyro_rows(unit: str) -> Iterator[CoefficientRow]:
 
 
 def _accel_rows(unit: str) -> Iterator[CoefficientRow]:
+    shown = "(m/s²)" if unit == "m/s^2" else unit
     for i, others in enumerate(OTHERS):
-        yield CoefficientRow("accel", i, 0, "K1", "", f"{unit}/(m/s²)", 1.0, f"{unit}/(m/s²)")
+        yield CoefficientRow("accel", i, 0, "K1", "", f"{unit}/(m/s²)", 1.0, f"{shown}/(m/s²)")
         yield CoefficientRow("accel", i, 1, "K0", "", "m/s²", 1e3, "mm/s²")
         for k, j in enumerate(others):
             yield CoefficientRow("accel", i, 2 + k, "K", AXES[j], "rad", 1e3, "mrad")
@@ -146,9 +148,8 @@ def _coefficient_table(title: Message, sensor: str, found: ImuCalibration, quali
         rows.append(
             (
                 f"{row.symbol} {AXES[row.channel]}{row.input}",
-                _rounded(row.factor * row.of(found.coefficients), noise),
-                f"{noise:.2g}",
-                "" if bench is None else f"{bench:.2g}",
+                *paired(row.factor * row.of(found.coefficients), noise, unstated=9),
+                "" if bench is None else digits(bench, 2),
                 row.shown_unit,
             )
         )
@@ -162,14 +163,6 @@ def _coefficient_table(title: Message, sensor: str, found: ImuCalibration, quali
     return Table(title, head, tuple(rows))
 
 
-def _rounded(value: float, uncertainty: float) -> str:
-    """To the second digit of the uncertainty; nine digits where it is none."""
-    if not uncertainty > 0.0:
-        return f"{value:.9g}"
-    decimals = 1 - floor(log10(uncertainty))
-    return f"{value:.{min(max(decimals, 0), 15)}f}"
-
-
 def _position_table(positions: Sequence[PositionData], quality: Quality) -> Table:
     head = (
         Message("position"),
@@ -177,18 +170,13 @@ def _position_table(positions: Sequence[PositionData], quality: Quality) -> Tabl
         *(Message("gyro {axis}, °/h", axis=axis) for axis in AXES),
         *(Message("accelerometer {axis}, mm/s²", axis=axis) for axis in AXES),
     )
-    rows = tuple(
-        (
-            position.name,
-            f"{position.duration_s:.1f}",
-            *(f"{value:+.3g}" for value in DPH * gyro),
-            *(f"{value:+.3g}" for value in 1e3 * accel),
-        )
-        for position, gyro, accel in zip(
-            positions, quality.gyro_residuals, quality.accel_residuals, strict=True
-        )
+    columns = (
+        (position.name for position in positions),
+        (f"{position.duration_s:.1f}" for position in positions),
+        *(column(values, sign="+") for values in (DPH * quality.gyro_residuals).T),
+        *(column(values, sign="+") for values in (1e3 * quality.accel_residuals).T),
     )
-    return Table(Message("Residuals of the positions"), head, rows)
+    return Table(Message("Residuals of the positions"), head, tuple(zip(*columns, strict=True)))
 
 
 def _residual_charts(quality: Quality) -> tuple[Chart, ...]:

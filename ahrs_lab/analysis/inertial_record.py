@@ -6,6 +6,7 @@ counts (``LSB``) is left in counts. :func:`unit_doubts` says when the header's u
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import radians
 
@@ -23,6 +24,7 @@ from ahrs_lab.recording.segment import RecordingHeader, Segment
 
 Array = NDArray[np.float64]
 
+_NAMED = 6
 TO_RADPS = {"deg/s": radians(1.0), "rad/s": 1.0, "LSB": 1.0}
 TO_MPS2 = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2, "LSB": 1.0}
 
@@ -96,7 +98,7 @@ def records(
         raise InputError(
             "The recording has no segment {file}; there are: {known}.",
             file=file,
-            known=", ".join(s.segment.file for s in recording.segments),
+            known=some_of([s.segment.file for s in recording.segments]),
         )
     found = tuple(inertial_record(recording.header, one) for one in chosen if _usable(one, tolerated))
     if not found:
@@ -106,6 +108,11 @@ def records(
             what=what if what is not None else Message("each was recorded again or interrupted."),
         )
     return found
+
+
+def some_of(names: Sequence[str]) -> str:
+    """A recording has up to a hundred segments: a sentence names the first of them."""
+    return ", ".join([*names[:_NAMED], *(["…"] if len(names) > _NAMED else [])])
 
 
 def _usable(recorded: RecordedSegment, tolerated: tuple[Kind, ...]) -> bool:

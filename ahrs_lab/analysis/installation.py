@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ahrs_lab.analysis.report import Chart, Curve, Report, Table
+from ahrs_lab.analysis.report_cells import paired
 from ahrs_lab.errors import InputError
 from ahrs_lab.inertial.installation import (
     Calibrated,
@@ -23,6 +24,7 @@ from ahrs_lab.inertial.installation import (
     compensation_covariance_deg2,
 )
 from ahrs_lab.messages import Message
+from ahrs_lab.recording.orientation import AXES
 from ahrs_lab.recording.read import RecordedSegment, Recording
 from ahrs_lab.recording.samples import ATTITUDE, Samples
 
@@ -56,10 +58,10 @@ class BracketResult:
         """A table of the angles, the formula and its direction."""
         u = self.calibrated.standard_uncertainty_deg
         rows = tuple(
-            (name, f"{value:.5f}", "–" if isnan(u[i]) else f"{u[i]:.5f}")
+            (name, *paired(value, float(u[i]), unstated=5))
             for i, (name, value) in enumerate(zip(_labels(), _values(self.calibrated.angles), strict=True))
         )
-        head = (Message("angle"), "°", Message("standard uncertainty, °"))
+        head = (Message("angle"), Message("value, °"), Message("standard uncertainty, °"))
         notes = [_FORMULA]
         if np.any(np.isnan(u)):
             notes.append(
@@ -100,7 +102,7 @@ class CarrierResult:
         """Given and corrected side by side."""
         u = np.sqrt(np.diag(self.covariance_deg2))
         rows = tuple(
-            (name, f"{given:.5f}", f"{angle:.5f}", "–" if isnan(u[i]) else f"{u[i]:.5f}")
+            (name, f"{given:.5f}", *paired(angle, float(u[i]), unstated=5))
             for i, (name, given, angle) in enumerate(
                 zip(_labels(), self.given_deg, self.angles_deg, strict=True)
             )
@@ -144,7 +146,10 @@ class CarrierRecord:
         )
         title = Message("Carrier minus unit")
         head = (Message("angle"), Message("least, °"), Message("mean, °"), Message("most, °"))
-        curves = tuple(Curve(name, self.t_s, one) for name, one in zip(_labels(), change.T, strict=True))
+        curves = tuple(
+            Curve(name, self.t_s, one, axis=axis)
+            for name, one, axis in zip(_labels(), change.T, AXES, strict=True)
+        )
         chart = Chart(title, Message("time, s"), Message("angle, °"), curves)
         locked = (
             (Message("{rows} rows are in gimbal lock. {what}", rows=self.locked, what=_LOCK),)
@@ -322,8 +327,7 @@ def bracket_from_json(data: Any, where: str) -> Calibrated:
             raise ValueError
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise InputError(
-            "{where} is no set of installation angles: write one with “ahrs-lab installation calibrate "
-            "--save”.",
+            "{where} is no set of installation angles: the calibration of the installation angles saves one.",
             where=where,
         ) from error
     checked = known_bracket(angles[0], angles[1], angles[2], direction)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ahrs_lab.analysis.report import Chart, Curve, Report, Table
+from ahrs_lab.analysis.report_cells import digits
 from ahrs_lab.inertial.earth import meridian_radius_m, transverse_radius_m
 from ahrs_lab.messages import Message
 
@@ -110,7 +111,7 @@ class NavigationResult:
                 known = error[np.isfinite(error)]
                 largest = known[np.argmax(np.abs(known))]
                 rms = np.sqrt(np.mean(known**2))
-                rows.append((name, unit, f"{known[-1]:.6g}", f"{largest:.6g}", f"{rms:.6g}"))
+                rows.append((name, unit, *(digits(float(value), 3) for value in (known[-1], largest, rms))))
         yield Table(
             Message("Navigation minus the recording's own columns"),
             ("", Message("unit"), Message("end"), Message("largest"), Message("root mean square")),
@@ -134,7 +135,7 @@ class NavigationResult:
         yield Chart(Message("Velocity"), time, Message("velocity, m/s"), curves(self.series, COLUMNS[3:6]))
         east, north = self._metres()
         track = Curve(Message("track"), east[thin], north[thin])
-        yield Chart(Message("Track"), Message("east, m"), Message("north, m"), (track,))
+        yield Chart(Message("Track"), Message("east, m"), Message("north, m"), (track,), equal=True)
         height = Curve(_NAMES["altitude_m"], t, self.series["altitude_m"][thin], axis="z")
         yield Chart(Message("Height"), time, Message("height, m"), (height,))
         for title, label, keys in (

@@ -45,7 +45,10 @@ class Mark:
 
 @dataclass(frozen=True)
 class Chart:
-    """Curves on one pair of axes; the axes' labels carry the unit: ``Message("time, h")``."""
+    """Curves on one pair of axes; the axes' labels carry the unit: ``Message("time, h")``.
+
+    ``equal``: both axes are lengths of one place, drawn to one scale where the drawing can.
+    """
 
     title: Message
     x_label: Message
@@ -54,6 +57,7 @@ class Chart:
     marks: tuple[Mark, ...] = ()
     log_x: bool = False
     log_y: bool = False
+    equal: bool = False
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from ahrs_lab.analysis.report import Cell, Chart, Curve, Report, Table
+from ahrs_lab.analysis.report_cells import digits, paired
 from ahrs_lab.inertial.transfer_alignment import Reference, TransferAlignment
 from ahrs_lab.inertial.transfer_alignment_model import (
     ACCEL_BIAS,
@@ -30,6 +31,7 @@ from ahrs_lab.messages import Message
 
 Array = NDArray[np.float64]
 
+_HEAD: Final = (Message("about"), Message("value, °"), Message("standard uncertainty, °"))
 NOT_SHOWN: Final = 0.5
 """A state whose uncertainty is still more than this part of what was assumed of it."""
 
@@ -180,27 +182,27 @@ class TransferResult:
     def _angles(self) -> Table:
         angle, u = np.degrees(self.misalignment)
         rows: list[tuple[Cell, ...]] = [
-            (name, f"{angle[i]:.5f}", f"{u[i]:.5f}") for i, name in enumerate(_ENU)
+            (name, *paired(float(angle[i]), float(u[i]))) for i, name in enumerate(_ENU)
         ]
         if self.aligned.method.needs_attitude:
             title = Message("Unit's case against the reference's, at the end")
             body = np.degrees(self.aligned.motion.C_bn[0].T @ self.misalignment[0])
             rows += [
-                (Message("about the case's {axis}", axis=axis), f"{body[i]:.5f}", "")
+                (Message("about the case's {axis}", axis=axis), paired(float(body[i]), float(u.max()))[0], "")
                 for i, axis in enumerate("xyz")
             ]
         else:
             title = Message("Unit's computed frame against the reference, at the end")
-        return Table(title, (Message("about"), "°", Message("standard uncertainty, °")), tuple(rows))
+        return Table(title, _HEAD, tuple(rows))
 
     def _at_start(self) -> Table:
         angle, u = self.aligned.misalignment_at_start[0], self.aligned.misalignment_at_start_u[0]
         rows = tuple(
-            (name, f"{value:.5f}", f"{of:.5f}")
+            (name, *paired(float(value), float(of)))
             for name, value, of in zip(_ENU, np.degrees(angle), np.degrees(u), strict=True)
         )
         title = Message("Unit's computed frame against the reference, at the start")
-        return Table(title, (Message("about"), "°", Message("standard uncertainty, °")), rows)
+        return Table(title, _HEAD, rows)
 
     def _states(self) -> Table:
         aligned = self.aligned
@@ -211,14 +213,16 @@ class TransferResult:
                 scale = scale / np.cos(float(aligned.motion.latitude[0]))
             # velocity and position are put right at every comparison: there is no value to show at the end
             value = aligned.misalignment[0, -1, state] if state < 3 else aligned.estimate[0, -1, state]
-            shown = f"{value / scale:.5g}" if state < 3 or state >= GYRO_BIAS.start else "–"
+            shown, u = paired(value / scale, aligned.estimate_u[0, -1, state] / scale)
+            if 3 <= state < GYRO_BIAS.start:
+                shown = "–"
             rows.append(
                 (
                     NAMES[state],
                     unit,
                     shown,
-                    f"{aligned.prior_u[i] / scale:.3g}",
-                    f"{aligned.estimate_u[0, -1, state] / scale:.3g}",
+                    digits(aligned.prior_u[i] / scale, 2),
+                    u,
                     f"{self.shrunk[i]:.3f}",
                 )
             )

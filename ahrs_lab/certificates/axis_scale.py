@@ -14,6 +14,8 @@ from ahrs_lab.metrology.rounding import TRUE_MINUS, format_grouped
 _LEAST_PLAIN, _MOST_PLAIN = -4, 5
 """Powers of ten between which numbers are written out."""
 _FEW = 3
+_NARROWEST = 2e-6
+"""Part of its values that a linear axis spans at least: less would magnify how numbers are rounded."""
 _FRACTIONS = ((1, 2, 3, 4, 5, 6, 7, 8, 9), (1, 2, 5), (1, 3), (1,))
 
 
@@ -24,6 +26,16 @@ class Ticks:
     values: tuple[float, ...]
     texts: tuple[str, ...]
     minor: tuple[float, ...] = ()
+
+
+def air_around(low: float, high: float, margin: float, *, log: bool = False) -> float:
+    """What an axis shows beyond ``low`` and ``high`` (their logarithms with ``log``) on either side."""
+    if log:
+        return margin * (high - low) or 0.5
+    largest = max(abs(low), abs(high))
+    if high == low:
+        return 0.5 * (largest or 1.0)
+    return max(margin * (high - low), 0.5 * (_NARROWEST * largest - (high - low)))
 
 
 def axis_ticks(low: float, high: float, most: int, *, log: bool = False) -> Ticks:
@@ -59,7 +71,7 @@ def number_text(value: float, step: float, largest: float | None = None) -> str:
         return "0"
     fine = math.floor(math.log10(step) + 1e-9)
     coarse = math.floor(math.log10(max(abs(value), largest or 0.0)))
-    if coarse < _MOST_PLAIN and fine >= _LEAST_PLAIN:
+    if coarse < _MOST_PLAIN and (fine >= _LEAST_PLAIN or coarse >= 0):
         return format_grouped(f"{value:.{max(0, -fine)}f}")
     mantissa = format_grouped(f"{value / 10.0**coarse:.{max(0, coarse - fine)}f}")
     return f"{mantissa}×{power_text(coarse)}"

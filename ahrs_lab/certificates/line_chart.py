@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from ahrs_lab.certificates.axis_scale import Ticks, axis_ticks
+from ahrs_lab.certificates.axis_scale import Ticks, air_around, axis_ticks
 from ahrs_lab.certificates.boxes import one_line
 from ahrs_lab.certificates.documents import Line, LineChart
 from ahrs_lab.certificates.drawing import (
@@ -62,7 +62,7 @@ class _Span:
         self.log = log
         good = [value for value in values if math.isfinite(value) and (value > 0.0 or not log)]
         low, high = self._scale(min(good, default=1.0)), self._scale(max(good, default=1.0))
-        air = margin * (high - low) or 0.5 * (1.0 if log else abs(low) or 1.0)
+        air = air_around(low, high, margin, log=log)
         self._low, self._high = low - air, high + air
 
     def _scale(self, value: float) -> float:

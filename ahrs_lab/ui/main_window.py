@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import sys
+
 from PySide6.QtCore import QEvent, QRectF, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QIcon, QKeySequence, QPainter, QPixmap, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
@@ -34,6 +36,8 @@ class MainWindow(QWidget):
         self.resize(*FIRST_SIZE)
         self.pages: dict[str, Page] = {}
         self._entries: dict[str, PageEntry] = {}
+        self._failed: set[str] = set()
+        """Pages whose making raised: made again only when somebody asks for them."""
         self._idle = QTimer(self, interval=IDLE_MS)
         self._idle.timeout.connect(self._make_idly)
         self.rail = NavigationRail()
@@ -90,10 +94,11 @@ class MainWindow(QWidget):
             self.show_page(entry.key)
 
     def make_next_page(self) -> bool:
-        """Make one page that is not made yet; False where all are."""
-        if not self._entries.keys() - self.pages.keys():
+        """Make one page that is not made yet; False where none is left to make."""
+        left = [key for key in self._entries if key not in self.pages and key not in self._failed]
+        if not left:
             return False
-        self._make(next(key for key in self._entries if key not in self.pages))
+        self._make(left[0])
         return True
 
     def make_pages_when_idle(self) -> None:
@@ -105,13 +110,21 @@ class MainWindow(QWidget):
             self._idle.stop()
 
     def make_all_pages(self) -> None:
-        """Before a run: each page hears of it from its beginning."""
-        while self.make_next_page():
-            pass
+        """Before a run: each page hears of it from its beginning. One that cannot be made is told, and
+        keeps no other from being made."""
+        while True:
+            try:
+                if not self.make_next_page():
+                    return
+            except Exception as error:
+                sys.excepthook(type(error), error, error.__traceback__)
 
     def _make(self, key: str) -> Page | None:
         if key not in self.pages and key in self._entries:
-            page = self.pages[key] = self._entries[key].make()
+            self._failed.add(key)
+            page = self._entries[key].make()
+            self._failed.discard(key)
+            self.pages[key] = page
             self.stack.addWidget(page)
             page.job_changed()
         return self.pages.get(key)

@@ -4041,6 +4041,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>保存文件的文件夹</translation>
     </message>
     <message>
+        <source>The folder holds a recording {names} already: choose another.</source>
+        <translation>该文件夹中已有记录 {names}：请另选文件夹。</translation>
+    </message>
+    <message>
         <source>Replace files</source>
         <translation>替换文件</translation>
     </message>
@@ -4059,6 +4063,10 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
     <message>
         <source>Saved in {folder}: {names}.</source>
         <translation>已保存到 {folder}：{names}。</translation>
+    </message>
+    <message>
+        <source>No recording: {names}. A recording is a folder with recording.toml in it, or an .ahrsrec file.</source>
+        <translation>不是记录：{names}。记录是内含 recording.toml 的文件夹，或 .ahrsrec 文件。</translation>
     </message>
     <message>
         <source>Analyses</source>

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ahrs_lab.analysis.inertial_record import records
+from ahrs_lab.analysis.inertial_record import records, some_of
 from ahrs_lab.errors import InputError
 from ahrs_lab.recording.read import read_bundle
 
@@ -34,6 +34,12 @@ def bundle(folder: Path, accel_unit: str, up: float, columns: str = "gyro_x,gyro
     head = f"t_s,{columns},accel_x,accel_y,accel_z"
     folder.joinpath("a.csv").write_text("\n".join([head, *rows]), encoding="utf-8")
     return folder
+
+
+def test_of_a_hundred_segments_a_sentence_names_the_first() -> None:
+    names = [f"{number}.csv" for number in range(100)]
+    assert some_of(names) == "0.csv, 1.csv, 2.csv, 3.csv, 4.csv, 5.csv, …"
+    assert some_of(names[:6]) == "0.csv, 1.csv, 2.csv, 3.csv, 4.csv, 5.csv"
 
 
 def test_units_become_si_and_a_gap_is_known(tmp_path: Path) -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import sys
+from functools import partial
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -9,10 +12,11 @@ from PySide6.QtWidgets import QDialog, QMessageBox
 from pytestqt.qtbot import QtBot
 
 from ahrs_lab.messages import Message
-from ahrs_lab.ui.main_window import MainWindow
-from ahrs_lab.ui.workspace import Worker
+from ahrs_lab.ui.main_window import IDLE_MS, MainWindow
+from ahrs_lab.ui.page import Page, PageEntry
+from ahrs_lab.ui.workspace import Worker, Workspace
 from tests.ui.clipped_text import clipped_texts, outside
-from tests.ui.conftest import Look
+from tests.ui.conftest import Look, plain_page
 from tests.ui.scripted_run import scripted
 
 
@@ -162,6 +166,52 @@ def test_closing_while_a_run_is_going_on_asks_first(
     monkeypatch.setattr(QMessageBox, "exec", answer)
     assert window.close() is not stay
     assert run.calls == (["start"] if stay else ["start", "abort"])
+
+
+def test_a_page_that_cannot_be_made_keeps_no_other_from_being_made(
+    workspace: Workspace, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told: list[str] = []
+    monkeypatch.setattr(sys, "excepthook", lambda _kind, error, _trace: told.append(str(error)))
+    tries: list[str] = []
+
+    def broken() -> Page:
+        tries.append("bench")
+        if len(tries) < 3:
+            raise RuntimeError("broken")
+        return plain_page(workspace, "bench")
+
+    made = MainWindow(workspace, theme="light")
+    qtbot.addWidget(made)
+    for key in ("start", "jobs", "setup"):
+        made.add_entry(PageEntry(key, partial(plain_page, workspace, key)))
+    made.add_entry(PageEntry("bench", broken))
+    made.add_entry(PageEntry("results", partial(plain_page, workspace, "results")))
+    assert list(made.pages) == ["start"]
+    made.make_all_pages()
+    assert list(made.pages) == ["start", "jobs", "setup", "results"]
+    made.make_all_pages()
+    assert not made.make_next_page()
+    # Told once, not with every tick of the idle timer; asked for, it is tried again.
+    assert (tries, told) == (["bench"], ["broken"])
+    with pytest.raises(RuntimeError):
+        made.show_page("bench")
+    assert made.current_page() == "start"
+    made.show_page("bench")
+    assert made.current_page() == "bench"
+
+
+def test_closing_the_window_ends_the_making_of_pages(workspace: Workspace, qtbot: QtBot) -> None:
+    made = MainWindow(workspace, theme="light")
+    qtbot.addWidget(made)
+    for key in ("start", "jobs", "setup"):
+        made.add_entry(PageEntry(key, partial(plain_page, workspace, key)))
+    made.show()
+    made.make_pages_when_idle()
+    qtbot.waitUntil(lambda: len(made.pages) == 2)
+    made.close()
+    qtbot.wait(3 * IDLE_MS)
+    assert list(made.pages) == ["start", "jobs"]
 
 
 def test_closing_without_a_run_does_not_ask(window: MainWindow) -> None:

@@ -122,7 +122,7 @@ def _angle(key: str, label: Message, limit: float = 180.0) -> Setting:
 
 
 def _uncertainty(key: str, label: Message) -> Setting:
-    return Setting(key, label, "number", -1.0, "°", -1.0, 10.0, hint=Message("below 0: not stated"))
+    return Setting(key, label, "number", -1.0, "°", 0.0, 10.0, hint=Message("empty: not stated"), blank=-1.0)
 
 
 CALIBRATE = AnalysisKind(

@@ -28,6 +28,8 @@ class Setting:
     high: float | None = None
     choices: tuple[tuple[str, Message], ...] = ()
     hint: Message | None = None
+    blank: float | None = None
+    """The number for which a field stays empty: it stands for “not stated”."""
 
 
 @dataclass(frozen=True)

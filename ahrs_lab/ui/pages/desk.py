@@ -145,6 +145,7 @@ class Desk(QObject):
             raise PermissionDeniedError("Sign in first.")
         self.laboratory.take_up_run(number, self.actor, reason)
         self._running = (number, self.actor)
+        self.workspace.run_starting.emit()
         try:
             launch()
         except AhrsLabError as error:

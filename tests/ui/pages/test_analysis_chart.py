@@ -155,3 +155,29 @@ def test_a_gap_breaks_the_curve(view: ChartView) -> None:
     view.show_chart(chart(Curve("a", t_s, y)))
     ((_, drawn),) = view.curves()
     assert np.isnan(drawn[5])
+
+
+def test_a_track_has_one_scale_for_both_axes_and_the_next_chart_its_own(view: ChartView, look: Look) -> None:
+    east, north = np.linspace(0.0, 1000.0, 20), np.linspace(0.0, 10.0, 20)
+
+    def pixels() -> tuple[float, float]:
+        look.settle()
+        size = view.canvas.getPlotItem().getViewBox().viewPixelSize()
+        return float(size[0]), float(size[1])
+
+    view.show_chart(chart(Curve("track", east, north), equal=True))
+    across, up = pixels()
+    assert across == pytest.approx(up)
+    view.show_chart(chart(Curve("track", east, north)))
+    across, up = pixels()
+    assert up < 0.1 * across
+
+
+def test_what_is_constant_but_for_rounding_is_drawn_as_a_line(view: ChartView, look: Look) -> None:
+    t_s = np.linspace(0.0, 90.0, 50)
+    view.show_chart(chart(Curve("height", t_s, 50.0 + 1e-8 * np.sin(t_s))))
+    view.canvas.grab()
+    look.settle()
+    texts = view.tick_texts("left")
+    assert "50.000\N{THIN SPACE}00" in texts
+    assert all("10^" not in text for text in texts)

@@ -316,6 +316,23 @@ def test_recordings_can_be_dropped(scene: Scene, tmp_path: Path) -> None:
     assert [recording.path() for recording in scene.bench.form.recordings] == [archive, folder]
 
 
+def test_what_is_dropped_and_no_recording_is_told(scene: Scene, tmp_path: Path) -> None:
+    notices: list[str] = []
+    scene.desk.workspace.noticed.connect(lambda _kind, what: notices.append(str(what)))
+    before = scene.bench.form.recordings[0].path() if scene.bench.form else None
+    (tmp_path / "holiday").mkdir()
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "holiday"))])
+    copy, left = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton
+    enter = QDragEnterEvent(QPoint(5, 5), copy, data, left, Qt.KeyboardModifier.NoModifier)
+    scene.bench.dragEnterEvent(enter)
+    assert enter.isAccepted()
+    scene.bench.dropEvent(QDropEvent(QPoint(5, 5), copy, data, left, Qt.KeyboardModifier.NoModifier))
+    assert ["No recording: holiday." in notice for notice in notices] == [True]
+    assert scene.bench.form is not None
+    assert scene.bench.form.recordings[0].path() == before
+
+
 def test_files_are_looked_for_with_dialogs(
     scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -365,6 +382,40 @@ def test_the_outcome_is_saved_and_files_are_not_replaced_unasked(
     scene.bench.outcome.save.click()
     scene.settle()
     assert (target / "result.json").read_bytes() == before
+
+
+def test_a_saved_recording_is_never_written_into(
+    desk: Desk, look: Look, qtbot: QtBot, laboratory: FakeLaboratory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    outcome = Outcome({"new": True}, Report(Message("Mean rates")), saves={"corrected": Path.mkdir})
+    kind = replace(REST, run=lambda _bundles, _settings: outcome)
+    scene = Scene(desk, look, qtbot, (kind,), laboratory.home)
+    scene.run()
+    target = laboratory.home / "out"
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(target))
+    scene.bench.outcome.save.click()
+    scene.settle()
+    (target / "corrected" / "recording.toml").write_text("", encoding="utf-8")
+    (target / "result.json").write_bytes(b"mine")
+    scene.bench.outcome.save.click()
+    scene.settle()
+    assert "corrected" in scene.notices[-1][1]
+    assert (target / "result.json").read_bytes() == b"mine"
+
+
+def test_a_number_that_is_not_stated_is_an_empty_field(look: Look, qtbot: QtBot) -> None:
+    field = NumberSetting(Setting("u", Message("uncertainty"), "number", -1.0, "°", 0.0, 10.0, blank=-1.0))
+    qtbot.addWidget(field)
+    field.retranslate()
+    assert field.line.text() == ""
+    assert field.read() == -1.0
+    assert field.error() == ""
+    qtbot.keyClicks(field.line, "-1")
+    assert field.read() is None
+    assert "From 0" in field.error()
+    field.line.clear()
+    assert field.read() == -1.0
+    assert field.error() == ""
 
 
 def test_long_work_shows_that_it_goes_on_and_the_screen_stays_alive(

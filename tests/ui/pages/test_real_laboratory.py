@@ -156,7 +156,10 @@ def test_a_stopped_run_leaves_the_job_ready_to_go_on(
     run.stop()
     qtbot.waitUntil(lambda: not run.live, timeout=20_000)
     qtbot.waitUntil(lambda: laboratory.job(number).state == "ready", timeout=5_000)
+    released: list[str] = []
+    desk.workspace.run_starting.connect(lambda: released.append("instruments"))
     desk.resume_run()
+    assert released == ["instruments"]
     assert laboratory.job(number).state == "running"
     run.stop()
     qtbot.waitUntil(lambda: not run.live, timeout=20_000)

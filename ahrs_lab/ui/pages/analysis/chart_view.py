@@ -19,6 +19,7 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 from ahrs_lab.analysis.curve_thinning import thinned
 from ahrs_lab.analysis.report import Cell, Chart, Curve
 from ahrs_lab.analysis.report_cells import readable
+from ahrs_lab.certificates.axis_scale import air_around
 from ahrs_lab.ui.pages.analysis.chart_axis import ChartAxis
 from ahrs_lab.ui.pages.analysis.curve_looks import CurveLook, curve_looks
 from ahrs_lab.ui.pages.analysis.legend import Entry, Legend
@@ -142,6 +143,7 @@ class ChartView(QWidget):
         if self._chart is None:
             return
         x, y = self._spans(self._chart)
+        self._box.setAspectLocked(self._chart.equal)
         self._box.setRange(xRange=x, yRange=y, padding=0.0)
         self.whole.setVisible(False)
         self._refine()
@@ -350,7 +352,7 @@ def _span(values: Array, margin: float, *, log: bool) -> tuple[float, float]:
     if not good.size:
         return (0.0, 1.0)
     low, high = float(good.min()), float(good.max())
-    air = margin * (high - low) or 0.5 * (1.0 if log else abs(low) or 1.0)
+    air = air_around(low, high, margin, log=log)
     return low - air, high + air
 
 

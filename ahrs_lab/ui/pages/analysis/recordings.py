@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication, QMimeData
@@ -59,7 +59,9 @@ def recording_of(path: Path) -> Path | None:
     return None
 
 
-def dropped(data: QMimeData) -> list[Path]:
-    """The recordings among what was dropped."""
-    paths: Iterable[Path] = (Path(url.toLocalFile()) for url in data.urls() if url.isLocalFile())
-    return [found for found in map(recording_of, paths) if found is not None]
+def dropped(data: QMimeData) -> tuple[list[Path], list[str]]:
+    """The recordings among what was dropped, and the names of what is none."""
+    paths = [Path(url.toLocalFile()) for url in data.urls() if url.isLocalFile()]
+    found = [recording_of(path) for path in paths]
+    others = [path.name for path, recording in zip(paths, found, strict=True) if recording is None]
+    return [recording for recording in found if recording is not None], others

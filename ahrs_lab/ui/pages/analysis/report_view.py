@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, Qt
@@ -19,6 +20,7 @@ from PySide6.QtWidgets import (
 from ahrs_lab.analysis.report import Report, Table
 from ahrs_lab.analysis.report_cells import number_columns, readable
 from ahrs_lab.ui.page import Translated
+from ahrs_lab.ui.pages.analysis.setting_values import titled
 from ahrs_lab.ui.pages.widgets.form import ChoiceField
 from ahrs_lab.ui.pages.widgets.icon_line import IconLine
 from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
@@ -34,6 +36,8 @@ _SHARES = (3, 2)
 _CELL_PX = 11
 _HEADING_PX = 84
 _COPY_PX = 20
+_COMMA = re.compile("，(?=.{3})")
+"""Where a Chinese heading may be broken: not before a unit of one sign."""
 _LEAST_PX, _NO_LIMIT_PX = 90, 16_777_215
 
 
@@ -67,7 +71,7 @@ class ReportTable(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         head = QHBoxLayout()
-        self.title = Label(said(table.title), role="strong", wrap=True)
+        self.title = Label(titled(said(table.title)), role="strong", wrap=True)
         self.copy = IconButton("copy")
         self.copy.setFixedHeight(_COPY_PX)
         self.copy.set_hint(self.tr("Copy the table"))
@@ -115,9 +119,10 @@ def _in_lines(heading: str, table: QWidget) -> str:
     """A long heading over several lines, so that its column is not much wider than its numbers."""
     metrics = table.fontMetrics()
     lines: list[str] = []
-    for word in heading.split(" "):
-        if lines and metrics.horizontalAdvance(f"{lines[-1]} {word}") <= _HEADING_PX:
-            lines[-1] += f" {word}"
+    for word in _COMMA.sub("， ", heading).split(" "):
+        between = "" if lines and lines[-1].endswith("，") else " "
+        if lines and metrics.horizontalAdvance(f"{lines[-1]}{between}{word}") <= _HEADING_PX:
+            lines[-1] += f"{between}{word}"
         else:
             lines.append(word)
     return "\n".join(lines)

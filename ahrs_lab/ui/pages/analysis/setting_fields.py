@@ -108,12 +108,15 @@ class NumberSetting(SettingField):
         self.edited.emit()
 
     def read(self) -> float | None:
+        if self.setting.blank is not None and not self.line.text().strip():
+            self.set_error("")
+            return self.setting.blank
         value = typed_number(self.line.text())
         self.set_error(fault_of_number(self.setting, value))
         return None if self.error() else value
 
     def put(self, value: Value) -> None:
-        self.line.setText(number_text(float(value)))
+        self.line.setText("" if value == self.setting.blank else number_text(float(value)))
         self.set_error("")
 
     def set_error(self, text: str) -> None:

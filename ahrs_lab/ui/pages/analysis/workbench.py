@@ -177,7 +177,15 @@ class Workbench(Translated):
             return
         folder = Path(chosen)
         there = [name for name in file_names(form.outcome) if (folder / name).exists()]
-        if not there or self._may_replace(there):
+        kept = [name for name in there if (folder / name).is_dir() and any((folder / name).iterdir())]
+        if kept:
+            self._desk.workspace.notice(
+                "warn",
+                self.tr("The folder holds a recording {names} already: choose another.").format(
+                    names=listed(kept)
+                ),
+            )
+        elif not there or self._may_replace(there):
             self.save(folder)
 
     def _may_replace(self, names: Sequence[str]) -> bool:
@@ -206,14 +214,24 @@ class Workbench(Translated):
         )
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
-        if self.form is not None and self.form.recordings and dropped(event.mimeData()):
+        if self.form is not None and self.form.recordings and any(dropped(event.mimeData())):
             event.setDropAction(Qt.DropAction.CopyAction)
             event.accept()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        if self.form is not None:
-            self.form.take(dropped(event.mimeData()))
-            event.accept()
+        if self.form is None:
+            return
+        found, others = dropped(event.mimeData())
+        self.form.take(found)
+        event.accept()
+        if others:
+            self._desk.workspace.notice(
+                "warn",
+                self.tr(
+                    "No recording: {names}. A recording is a folder with recording.toml in it, or an "
+                    ".ahrsrec file."
+                ).format(names=listed(others)),
+            )
 
     # words ----------------------------------------------------------------------------------------------
 

@@ -9,7 +9,7 @@ from typing import Any, Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ahrs_lab.analysis.report import Chart, Curve, Report, Table
+from ahrs_lab.analysis.report import Cell, Chart, Curve, Report, Table
 from ahrs_lab.analysis.report_cells import digits
 from ahrs_lab.inertial.earth import meridian_radius_m, transverse_radius_m
 from ahrs_lab.messages import Message
@@ -104,7 +104,7 @@ class NavigationResult:
     def _error_table(self) -> Iterator[Table]:
         if not self.errors:
             return
-        rows = []
+        rows: list[tuple[Cell, ...]] = []
         for (name, unit), key in zip(_DIFFERENCES, ERRORS, strict=True):
             if key in self.errors:
                 error = self.errors[key]

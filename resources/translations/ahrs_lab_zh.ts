@@ -157,6 +157,10 @@
         <translation>方案可以执行。</translation>
     </message>
     <message>
+        <source>No conformity is stated: the limits are of quantities of JJF 1536-2015.</source>
+        <translation>不作符合性判定：所设限值属于 JJF 1536-2015 的量。</translation>
+    </message>
+    <message>
         <source>Enter the customer.</source>
         <translation>请填写送校单位。</translation>
     </message>

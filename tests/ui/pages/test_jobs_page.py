@@ -117,6 +117,24 @@ def test_a_refused_setting_says_so_at_its_field_and_stops_the_start(screens: Scr
     assert screens.laboratory.job(screens.number("ready")).state == "ready"
 
 
+def test_limits_that_no_imu_calibration_is_held_against_are_told_before_the_run(
+    screens: Screens, qtbot: QtBot
+) -> None:
+    screens.desk.open(screens.number("ready"), "jobs")
+    editor = screens.jobs.editor
+
+    def told() -> bool:
+        return any("No conformity is stated" in text for text in editor.before_run.texts())
+
+    if not editor.limits.lines:
+        editor.limits.add_button.click()
+    qtbot.wait(300)
+    assert not told()
+    editor.plan.procedure.set_key("imu-discrete")
+    editor.plan.procedure.edited.emit()
+    qtbot.waitUntil(told)
+
+
 def test_a_deviation_is_a_sentence_before_the_run(screens: Screens, qtbot: QtBot) -> None:
     screens.desk.open(screens.number("ready"), "jobs")
     type_into(qtbot, line(screens, "duration"), "600")

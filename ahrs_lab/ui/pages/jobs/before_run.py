@@ -29,6 +29,8 @@ class Readiness:
     limits: Message | None = None
     by_standard: bool = True
     """The plan is one of JJF 1536."""
+    limits_unused: bool = False
+    """There are limits, but not of what the plan finds."""
 
 
 class BeforeRunCard(Card):
@@ -95,6 +97,13 @@ class BeforeRunCard(Card):
         if not found.plan_ok:
             lines.append(IconLine("bad", self.tr("The plan cannot be run as it stands: see the tab Plan.")))
         lines += [IconLine("warn", said(message)) for message in found.deviations]
+        if found.limits_unused:
+            lines.append(
+                IconLine(
+                    "warn",
+                    self.tr("No conformity is stated: the limits are of quantities of JJF 1536-2015."),
+                )
+            )
         if not found.missing:
             lines.append(IconLine("good", self.tr("Customer, device and people are entered.")))
         if not found.violations and "standards" not in found.missing:

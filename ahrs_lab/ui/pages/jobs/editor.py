@@ -210,6 +210,7 @@ class JobEditor(Translated):
         found = self.plan.view()
         limits = self.bench.limits
         runnable = found.runnable and found.plan is not None
+        by_standard = found.plan is None or found.plan.procedure == "jjf1536-2015"
         readiness = Readiness(
             missing=checks.missing(draft),
             violations=checks.clause6(draft, self._desk.laboratory.standards()),
@@ -221,7 +222,8 @@ class JobEditor(Translated):
                 else None
             ),
             limits=self.limits.refusal(),
-            by_standard=found.plan is None or found.plan.procedure == "jjf1536-2015",
+            by_standard=by_standard,
+            limits_unused=bool(self.limits.lines) and not by_standard,
         )
         self.before_run.show_readiness(readiness)
         self.start_button.setEnabled(readiness.limits is None)

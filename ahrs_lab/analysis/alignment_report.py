@@ -153,7 +153,7 @@ def _charts(alignment: Alignment) -> tuple[Chart, ...]:
 
 
 def _bias_charts(t: Array, values: Array, deviations: Array) -> list[Chart]:
-    east, north, up = Message("east"), Message("north"), Message("up")
+    east, north, up = Message("east"), Message("north"), Message("upward")
     return [
         Chart(
             title,

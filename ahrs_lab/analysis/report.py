@@ -47,7 +47,7 @@ class Mark:
 class Chart:
     """Curves on one pair of axes; the axes' labels carry the unit: ``Message("time, h")``.
 
-    ``equal``: both axes are lengths of one place, drawn to one scale where the drawing can.
+    ``equal``: both axes are lengths of one place, and are drawn to one scale.
     """
 
     title: Message

@@ -186,7 +186,7 @@ class Line:
 @dataclass(frozen=True)
 class LineChart:
     """Curves on one pair of axes over the whole width, with a legend; ``marks`` are upright lines with their
-    names."""
+    names. ``equal``: both axes have one scale."""
 
     lines: tuple[Line, ...]
     x_label: Label
@@ -194,6 +194,7 @@ class LineChart:
     marks: tuple[tuple[float, Label], ...] = ()
     log_x: bool = False
     log_y: bool = False
+    equal: bool = False
     height: float = 138.0
     """Points; three such charts with their headings fill a page."""
 

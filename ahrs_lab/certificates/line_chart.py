@@ -68,6 +68,16 @@ class _Span:
     def _scale(self, value: float) -> float:
         return math.log10(value) if self.log else value
 
+    @property
+    def width(self) -> float:
+        """In the axis' unit; decades where it is logarithmic."""
+        return self._high - self._low
+
+    def widen(self, width: float) -> None:
+        """To at least this width, about its middle."""
+        more = 0.5 * max(0.0, width - self.width)
+        self._low, self._high = self._low - more, self._high + more
+
     def ticks(self, most: int) -> Ticks:
         low, high = (10.0**end if self.log else end for end in (self._low, self._high))
         return axis_ticks(low, high, most, log=self.log)
@@ -123,6 +133,11 @@ class LineChartBox:
         texts = [markup(text) for text in y_ticks.texts]
         gutter = max((text_width(text, _TICK_SIZE) for text in texts), default=0.0) + 6.0
         left, wide = x + gutter, width - gutter
+        if self._chart.equal:
+            per_point = max(self._x.width / wide, self._y.width / self._chart.height)
+            self._x.widen(per_point * wide)
+            self._y.widen(per_point * self._chart.height)
+            y_ticks = self._y.ticks(6)
         bottom = top - self._head(width) - self._chart.height
         pen.text(x, top - self._head(width) + 5.0, one_line(self._chart.y_label), _LABEL_SIZE, ink=GREY)
         self._grid(pen, (left, bottom, wide), y_ticks)

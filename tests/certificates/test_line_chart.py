@@ -75,6 +75,13 @@ def test_a_curve_without_extent_is_drawn_all_the_same(
     assert "lonely" in written(tmp_path, chart(Line(same("lonely"), points), log_x=True, log_y=True))
 
 
+def test_a_track_is_drawn_to_one_scale(tmp_path: Path) -> None:
+    track = Line(same("track"), ((0.0, 0.0), (100.0, 1.0)))
+    # 100 m across the page: its height then spans about 25 m, not one.
+    assert "−10" in written(tmp_path, chart(track, equal=True))
+    assert "−10" not in written(tmp_path, chart(track))
+
+
 def test_a_long_legend_takes_more_lines_and_height() -> None:
     few = chart(Line(same("a"), ((0.0, 1.0),)))
     many = chart(*(Line(same(f"curve number {i}"), ((0.0, 1.0),)) for i in range(12)))

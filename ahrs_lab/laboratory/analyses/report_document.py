@@ -104,6 +104,7 @@ def _chart(chart: reports.Chart, language: CertificateLanguage) -> LineChart:
         marks=tuple((mark.x, _said(mark.label, language)) for mark in chart.marks if math.isfinite(mark.x)),
         log_x=chart.log_x,
         log_y=chart.log_y,
+        equal=chart.equal,
     )
 
 

@@ -56,7 +56,7 @@ def test_assumptions_are_options(capsys: Capture, recording: Path) -> None:
 def test_out_leaves_result_and_series(capsys: Capture, recording: Path, tmp_path: Path) -> None:
     assert main(["align", str(recording), "--out", str(tmp_path / "out")]) == 0
     text = capsys.readouterr().out
-    assert "Kalman filter, closed loop (10 states) (chosen)" in text
+    assert "Kalman filter, closed loop (chosen)" in text
     assert "gyro bias assumed" in text
     result = json.loads((tmp_path / "out" / "result.json").read_text(encoding="utf-8"))
     with (tmp_path / "out" / "series.csv").open(encoding="utf-8") as file:

@@ -107,15 +107,23 @@ def calibrate_recording(
     positions = tuple(
         position_data(r, gyro, accel, starts[r.segment.file], mountings[r.segment.file]) for r in resting
     )
-    found_set = calibrate(
-        positions,
-        rotations,
-        reference,
-        gyro_noise=gyro.noise,
-        accel_noise=accel.noise,
-        rate_unit=header.device.rate_unit,
-        accel_unit=header.device.accel_unit,
-    )
+    try:
+        found_set = calibrate(
+            positions,
+            rotations,
+            reference,
+            gyro_noise=gyro.noise,
+            accel_noise=accel.noise,
+            rate_unit=header.device.rate_unit,
+            accel_unit=header.device.accel_unit,
+        )
+    except InputError as error:
+        if not warnings:
+            raise
+        # what was left out is mostly why
+        raise InputError(
+            "{what} The recording's first finding: {why}", what=error.message, why=warnings[0]
+        ) from error
     _refuse_unlikely_scale(found_set)
     stated = capability or noted_capability(header.notes)
     bench, figures = bench_uncertainty(

@@ -32,6 +32,8 @@ RATE_UNITS = ("", "deg/s", "rad/s", "LSB")
 ACCEL_UNITS = ("", "m/s^2", "g", "LSB")
 _LARGEST_CONDITION = 1e6
 _MOST_POSITIONS = 10_000
+_LARGEST = 1e6
+"""Of a bias, an effect of the specific force or a misalignment, in the set's units: no unit comes near."""
 
 
 def to_json(found: ImuCalibration) -> dict[str, Any]:
@@ -115,6 +117,14 @@ def refuse_singular(coefficients: Coefficients) -> None:
                     axis=axis,
                     value=float(value),
                 )
+    for name, values in (("gyro.B0", gyro.B0), ("gyro.Bf", gyro.Bf), ("accel.K0", accel.K0)):
+        if np.abs(values).max() > _LARGEST:
+            raise InputError(
+                "The calibration set's {name} goes up to {value}, which is not of a unit that works: "
+                "calibrate the unit again.",
+                name=name,
+                value=f"{np.abs(values).max():.3g}",
+            )
     for name, matrix in (("I + E", np.eye(3) + gyro.E), ("I + K", np.eye(3) + accel.K)):
         if np.linalg.cond(matrix) > _LARGEST_CONDITION:
             raise InputError(
@@ -165,7 +175,7 @@ def _quality(reader: JsonReader) -> Quality:
     bench = reader.object("bench_uncertainty") if reader.has("bench_uncertainty") else None
     figures = bench.object("figures") if bench is not None else None
     return Quality(
-        standard_uncertainty=_read(reader.object("standard_uncertainty")),
+        standard_uncertainty=_uncertainty(reader, "standard_uncertainty"),
         gyro_covariance=_array(covariance, "gyro", (3, 7, 7)),
         accel_covariance=_array(covariance, "accel", (3, 4, 4)),
         gyro_condition=condition.number("gyro"),
@@ -174,9 +184,17 @@ def _quality(reader: JsonReader) -> Quality:
         gyro_residuals=_array(residuals, "gyro_dps", (len(positions), 3)),
         accel_residuals=_array(residuals, "accel_mps2", (len(positions), 3)),
         positions=positions,
-        bench=None if bench is None else _read(bench),
+        bench=None if bench is None else _uncertainty(reader, "bench_uncertainty"),
         bench_figures={} if figures is None else {key: figures.number(key) for key in figures.data},
     )
+
+
+def _uncertainty(reader: JsonReader, name: str) -> Coefficients:
+    """Coefficients' uncertainties: not below zero."""
+    found = _read(reader.object(name))
+    if min(float(part.min()) for part in found.vectors()) < 0.0:
+        raise reader.fault(name, Message("numbers of zero or more"))
+    return found
 
 
 def _array(reader: JsonReader, name: str, shape: tuple[int, ...]) -> Array:

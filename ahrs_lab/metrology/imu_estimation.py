@@ -36,6 +36,7 @@ from ahrs_lab.metrology.imu_calibration import (
     position_matrix,
 )
 from ahrs_lab.metrology.imu_covariance import (
+    Covariances,
     Triad,
     after_division,
     covariance_of,
@@ -87,12 +88,10 @@ def calibrate(
     turns = len(rotations)
     gyro_errors = errors_of_means(gyro, _gyro_errors(positions, rotations), durations, turns)
     accel_errors = errors_of_means(accel, np.array([p.accel_error for p in positions]), durations[turns:], 0)
-    gyro_linear, gyro_widening = covariance_of(gyro, gyro_errors, starts, durations, turns, gyro_noise)
-    accel_linear, accel_widening = covariance_of(
-        accel, accel_errors, starts[turns:], durations[turns:], 0, accel_noise
-    )
-    gyro_covariance = np.array([after_division(gyro.linear[i], i, gyro_linear[i]) for i in range(3)])
-    accel_covariance = np.array([after_division(accel.linear[i], i, accel_linear[i]) for i in range(3)])
+    gyro_part = covariance_of(gyro, gyro_errors, starts, durations, turns, gyro_noise)
+    accel_part = covariance_of(accel, accel_errors, starts[turns:], durations[turns:], 0, accel_noise)
+    gyro_covariance = np.array([after_division(gyro.linear[i], i, gyro_part.linear[i]) for i in range(3)])
+    accel_covariance = np.array([after_division(accel.linear[i], i, accel_part.linear[i]) for i in range(3)])
     quality = Quality(
         standard_uncertainty=Coefficients.from_vectors(
             deviations(gyro_covariance), deviations(accel_covariance)
@@ -106,7 +105,7 @@ def calibrate(
         accel_residuals=accel.residuals / coefficients.accel.K1,
         positions=tuple(p.name for p in positions),
     )
-    warnings = _warnings(len(positions), condition, gyro_widening, accel_widening)
+    warnings = _warnings(len(positions), condition, gyro_part, accel_part)
     return ImuCalibration(coefficients, rate_unit, accel_unit, quality, warnings)
 
 
@@ -268,7 +267,7 @@ def _gyro_errors(positions: Sequence[PositionData], rotations: Sequence[Rotation
     return np.array([*(r.angle_error / r.duration_s for r in rotations), *(p.gyro_error for p in positions)])
 
 
-def _warnings(count: int, condition: float, gyro: float, accel: float) -> tuple[Message, ...]:
+def _warnings(count: int, condition: float, gyro: Covariances, accel: Covariances) -> tuple[Message, ...]:
     found = []
     if count == FEWEST_POSITIONS:
         found.append(
@@ -285,15 +284,25 @@ def _warnings(count: int, condition: float, gyro: float, accel: float) -> tuple[
                 condition=f"{condition:.3g}",
             )
         )
-    for name, widening in ((Message("gyros"), gyro), (Message("accelerometers"), accel)):
-        if widening > 1.0:
-            found.append(
-                Message(
-                    "The {sensors} scatter over the positions {factor} times more than their noise and "
-                    "drift explain; the standard uncertainties were widened by it. Check level, fixture and "
-                    "warm-up.",
-                    sensors=name,
-                    factor=f"{widening:.2g}",
-                )
-            )
+    for name, part in ((Message("gyros"), gyro), (Message("accelerometers"), accel)):
+        if part.scatter > 1.0:
+            found.append(_scatter(name, part))
     return tuple(found)
+
+
+def _scatter(sensors: Message, part: Covariances) -> Message:
+    factor = f"{part.scatter:.2g}"
+    if part.drift_seen:
+        return Message(
+            "The {sensors} scatter over the positions {factor} times more than their noise and drift "
+            "explain; the standard uncertainties take it as more drift. Check level, fixture and warm-up.",
+            sensors=sensors,
+            factor=factor,
+        )
+    return Message(
+        "The {sensors} scatter over the positions {factor} times more than their noise explains, and the "
+        "dwells are too short to show a drift; the standard uncertainties take it as drift. Record longer "
+        "dwells, or check level, fixture and warm-up.",
+        sensors=sensors,
+        factor=factor,
+    )

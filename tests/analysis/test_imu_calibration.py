@@ -220,6 +220,15 @@ def test_what_is_missing_is_named(tmp_path: Path, change: Change, named: str) ->
         found(tmp_path, recorder, change(recorder.everything("6", turns=5)))
 
 
+def test_what_was_left_out_before_is_said_with_what_is_missing(tmp_path: Path) -> None:
+    recorder = Recorder(unit(1))
+    made = altered(recorder.everything("6", turns=5), 1, turns=-6)
+    with pytest.raises(
+        InputError, match=r"x the table turned in one sense only.*first finding: .*turned -1800"
+    ):
+        found(tmp_path, recorder, made)
+
+
 def test_a_sense_written_wrongly_is_seen_without_the_tables_angle(tmp_path: Path) -> None:
     recorder = Recorder(unit(1), table_angle=False)
     made = recorder.everything("6")

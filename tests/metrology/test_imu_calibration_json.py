@@ -91,6 +91,13 @@ def replaced(key: str, value: object) -> dict[str, Any]:
         (replaced("version", 2), "no calibration set"),
         (replaced("covariance.gyro", [[]]), r"covariance\.gyro"),
         (replaced("warnings", [{"message": {"template": "{a.b}", "params": {"a": 1}}}]), "fields in braces"),
+        (replaced("gyro.B0", [0.0, 1e308, 0.0]), r"gyro\.B0 goes up to 1e\+308"),
+        (replaced("gyro.Bf", [[1e7] * 3] * 3), r"gyro\.Bf goes up to 1e\+07"),
+        (replaced("accel.K0", [-1e308, 1e308, 0.0]), r"accel\.K0 goes up to 1e\+308"),
+        (
+            replaced("standard_uncertainty", {"gyro": SET["gyro"], "accel": SET["accel"]}),
+            "standard_uncertainty has to be numbers of zero or more",
+        ),
     ],
 )  # fmt: skip
 def test_what_is_wrong_with_a_set_is_named(data: object, named: str) -> None:

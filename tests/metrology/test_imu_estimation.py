@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from ahrs_lab.errors import InputError
+from ahrs_lab.inertial.sensor_noise import NoiseCoefficients, SlowDrift
 from ahrs_lab.metrology.imu_calibration import (
     SCHEMES,
     Coefficients,
@@ -200,6 +201,48 @@ def test_drift_between_the_dwells_is_in_the_standard_uncertainties() -> None:
         inside.append(np.abs(error) <= 1.96 * found.quality.standard_uncertainty.vectors()[0])
     assert 0.93 <= np.mean(inside) <= 0.97
     assert np.mean(inside, axis=(0, 1)) == pytest.approx(np.full(7, 0.95), abs=0.035)
+
+
+@pytest.mark.parametrize("scheme", ["6", "12"])
+def test_drift_that_short_dwells_do_not_show_is_told_by_the_positions_scatter(scheme: str) -> None:
+    """The bias instability of a MEMS unit, with dwells that show its white noise alone: two standard
+    uncertainties hold 95 % of the truths, of what turns and what positions tell alike."""
+    white, dwell_s, turn_s, runs = 3.5e-3, 20, 36, 200
+    drifts = (NoiseCoefficients(bias_instability=6.0 / 3600.0),) * 3
+    bench = Shown(random_unit(np.random.default_rng(1), counts=False), white, 1e-3)
+    exact = bench.scheme(scheme, float(dwell_s)), bench.all_turns()
+    truth = bench.unit.vectors()[0]
+    turned_s = np.arange(6) * 110 + 60
+    rested_s = 800 + np.arange(len(exact[0])) * 70
+    inside, said = [], 0
+    for run in range(runs):
+        nodes = SlowDrift(drifts, np.random.SeedSequence((9, run))).nodes(0, 2500)
+        moved = bench.unit.gyro.E1[:, np.newaxis] * nodes
+        positions, turns = bench.drawn(*exact)
+        drift = [moved[:, t : t + dwell_s].mean(axis=1) for t in rested_s]
+        found = calibrate(
+            [
+                replace(p, start_s=float(t), gyro=p.gyro + d)
+                for p, t, d in zip(positions, rested_s, drift, strict=True)
+            ],
+            [
+                replace(
+                    r, start_s=float(t), angle=r.angle + moved[:, t : t + turn_s].mean(axis=1) * r.duration_s
+                )
+                for r, t in zip(turns, turned_s, strict=True)
+            ],
+            REFERENCE,
+            gyro_noise=[NoiseModel(white=white)] * 3,
+        )
+        assert found.quality is not None
+        error = found.coefficients.vectors()[0] - truth
+        error[:, 1] -= np.mean(drift, axis=0) / bench.unit.gyro.E1
+        inside.append(np.abs(error) <= 2.0 * found.quality.standard_uncertainty.vectors()[0])
+        said += any("gyros" in w.text() and "too short to show a drift" in w.text() for w in found.warnings)
+    of_each = np.mean(inside, axis=(0, 1))
+    assert np.all(of_each > 0.91)
+    assert np.mean(of_each) == pytest.approx(0.95, abs=0.025)
+    assert said > 0.8 * runs
 
 
 def test_without_known_noise_the_scatter_of_the_positions_tells_it() -> None:

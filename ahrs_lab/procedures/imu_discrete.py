@@ -8,6 +8,7 @@ six mountings for every named scheme.
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, replace
 from typing import Any
@@ -51,13 +52,13 @@ def positions(plan: ImuPlan) -> tuple[Position, ...]:
 
 def _position(text: str) -> Position:
     found = _POSITION.fullmatch(text)
-    if found is None:
+    azimuth = float(found.group(2) or 0.0) if found else math.inf
+    if found is None or abs(azimuth) > 360.0:
         raise InputError(
             "imu.positions contains “{text}”: write where x, y, z of the case point, as UEN, and where "
-            "wished the degrees by which the table is turned on, as UEN@30.",
+            "wished the degrees by which the table is turned on, −360 to 360, as UEN@30.",
             text=text,
         )
-    azimuth = float(found.group(2) or 0.0)
     quarters = round(azimuth / 90.0)
     return Position(Orientation(found.group(1)).turned(quarters), azimuth - 90.0 * quarters)
 

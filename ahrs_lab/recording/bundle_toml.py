@@ -187,7 +187,7 @@ def segment_from_table(entry: Mapping[str, Any], where: str, what: str) -> Segme
         superseded=table.flag("superseded"),
         reason=table.text("reason", ""),
         interrupted=table.flag("interrupted"),
-        azimuth_deg=table.number("azimuth_deg", None) if "azimuth_deg" in entry else None,
+        azimuth_deg=table.number("azimuth_deg", None, -1e6, 1e6) if "azimuth_deg" in entry else None,
         started_utc=table.text("started_utc", ""),
         extra={key: value for key, value in entry.items() if key not in _SEGMENT},
     )

@@ -44,10 +44,12 @@ def write_recording(
 
 
 def write_bundle(target: Path, header: RecordingHeader, segments: Sequence[tuple[Segment, Samples]]) -> None:
-    """As a recording in a new folder, or packed where the name ends in ``.ahrsrec``."""
+    """As a recording in a new folder, or packed where the name ends in ``.ahrsrec``, in a new file."""
     if target.suffix.lower() != ARCHIVE_SUFFIX:
         write_recording(target, header, segments)
         return
+    if target.exists():
+        raise InputError("{path} is there already: choose another name.", path=target)
     with tempfile.TemporaryDirectory() as beside:
         write_recording(Path(beside) / "recording", header, segments)
         pack(Path(beside) / "recording", target)

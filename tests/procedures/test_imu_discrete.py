@@ -153,6 +153,8 @@ def test_the_steps_are_those_that_are_yielded() -> None:
         ({"scheme": "own", "positions": ["UEN", "UNW", "UWS", "USE"]}, "The 4 positions have rank 1 of 4"),
         ({"scheme": "own", "positions": ["UEN", "DES", "SUW", "NDW"]}, "have rank 3 of 4"),
         ({"scheme": "own", "positions": ["UEN@", "DES"]}, "imu.positions contains “UEN@”"),
+        ({"scheme": "own", "positions": ["UEN@361", "DES"]}, "imu.positions contains “UEN@361”"),
+        ({"scheme": "own", "positions": ["UEN@" + "9" * 400]}, "imu.positions contains “UEN@999"),
         ({"scheme": "own", "positions": ["UNE"]}, "“UNE” is not an orientation"),
         ({"scheme": "own", "positions": ["UEN", "UNW@-90"]}, "names a position twice"),
         ({"scheme": "own", "positions": ["UEN"] * 400}, "400 positions: 360 are the most"),

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from ahrs_lab.errors import InputError
+from ahrs_lab.recording import write_whole
 from ahrs_lab.recording.archive import pack, unpack
 from ahrs_lab.recording.read import Recording, read_bundle
 from tests.recording.making import four_positions, write_bundle
@@ -119,3 +120,15 @@ def test_an_archive_without_a_recording_is_refused(tmp_path: Path) -> None:
         archive.writestr("readme.txt", "x")
     with pytest.raises(InputError, match=r"no recording\.toml"):
         read_bundle(tmp_path / "a.ahrsrec")
+
+
+def test_a_recording_made_from_another_is_not_packed_over_one_that_is_there(
+    folder: Path, tmp_path: Path
+) -> None:
+    target = tmp_path / "kept.ahrsrec"
+    pack(folder, target)
+    before = target.read_bytes()
+    read = read_bundle(target)
+    with pytest.raises(InputError, match="is there already"):
+        write_whole.write_bundle(target, read.header, [(r.segment, r.samples) for r in read.segments])
+    assert target.read_bytes() == before

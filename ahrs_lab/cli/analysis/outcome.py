@@ -39,7 +39,8 @@ def show(outcome: Outcome, files: Iterable[Path], arguments: argparse.Namespace)
     """Print what came out, as text with the ``files`` that were written, or as one JSON object."""
     from ahrs_lab.analysis.report import report_text
 
-    text = report_text(outcome.report)
+    # names in a report come from files of anybody: none may drive the terminal
+    text = "".join(c if c == "\n" or c.isprintable() else " " for c in report_text(outcome.report))
     written = ", ".join(str(path) for path in files)
     if written:
         text += f"\n\nFiles: {written}"

@@ -295,7 +295,7 @@ def _scatter(sensors: Message, part: Covariances) -> Message:
     if part.drift_seen:
         return Message(
             "The {sensors} scatter over the positions {factor} times more than their noise and drift "
-            "explain; the standard uncertainties take it as more drift. Check level, fixture and warm-up.",
+            "explain; the standard uncertainties were widened by it. Check level, fixture and warm-up.",
             sensors=sensors,
             factor=factor,
         )

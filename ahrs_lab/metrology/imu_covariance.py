@@ -106,7 +106,7 @@ class _Scatter:
 
     @classmethod
     def of(cls, triad: Triad, errors: Array, drift: Array) -> _Scatter:
-        free = len(errors) - 4 if np.all(errors > 0.0) else 0
+        free = len(errors) - 4 if np.all((errors > 0.0) & np.isfinite(errors)) else 0
         kept = np.linalg.svd(triad.keeps)[0][:, :, :free]
         bases = np.swapaxes(kept, 1, 2) @ triad.keeps
         spread = np.array([np.diag(error**2) for error in errors.T]) + drift

@@ -25,7 +25,6 @@ from ahrs_lab.inertial.transfer_alignment_model import (
     NAMES,
     PHI,
     Assumptions,
-    azimuth_share,
 )
 from ahrs_lab.messages import Message
 
@@ -73,16 +72,18 @@ class TransferResult:
             vector = Rotation.from_matrix(aligned.mounting[0]).as_rotvec()
             of_mounting = C @ aligned.covariance[0, at : at + 3, at : at + 3] @ C.T
             return C @ vector, np.sqrt(np.diag(of_mounting))
-        # level from the attitude found and the reference's last one, azimuth from all of them
+        # level from the attitude found and the reference's last one, about the case's z from all of them
         assert self.reference.C_bn is not None
-        between = Rotation.from_matrix(C @ self.reference.C_bn[0, -1].T).as_rotvec()
+        mounting = Rotation.from_matrix(self.reference.C_bn[0, -1].T @ C).as_rotvec()
+        level = (C @ mounting)[:2]
         level_u = np.hypot(aligned.misalignment_u[0, -1, :2], self.assumed.attitude_noise)
-        share = float(azimuth_share(aligned.motion.C_bn)[0])
-        azimuth_u = abs(share) * aligned.estimate_u[0, -1, AZIMUTH]
-        # heading is clockwise, the rotation about up is not
-        return np.array([*between[:2], -share * aligned.estimate[0, -1, AZIMUTH]]), np.array(
-            [*level_u, azimuth_u]
-        )
+        # heading is clockwise, the rotation about z is not; turns about x and y, one after the other, show
+        # in heading to second order; and the turn about up has a share of level
+        about_z = -aligned.estimate[0, -1, AZIMUTH] - mounting[0] * mounting[1] / 2
+        z_u = aligned.estimate_u[0, -1, AZIMUTH]
+        up = (about_z - C[:2, 2] @ level) / C[2, 2]
+        up_u = np.hypot(z_u, np.hypot(*(C[:2, 2] * level_u))) / abs(C[2, 2])
+        return np.array([*level, up]), np.array([*level_u, up_u])
 
     @property
     def nis(self) -> tuple[float, float, float, float]:

@@ -44,6 +44,7 @@ from ahrs_lab.inertial.transfer_alignment_model import (
     discrete,
     error_matrix,
     prior_covariance,
+    tilt_share,
 )
 from ahrs_lab.inertial.transfer_alignment_motion import (
     Increments,
@@ -246,6 +247,7 @@ class _Filter:
                 _azimuth(motion.C_bn)
                 - _azimuth(reference.C_bn)
                 - self.found[:, AZIMUTH] * azimuth_share(motion.C_bn)
+                - _rotation_vector(reference.C_bn.mT @ motion.C_bn)[:, 0] * tilt_share(motion.C_bn)
             )
             z[:, 6:] = _rotation_vector(motion.C_bn @ (reference.C_bn @ self.mounting).mT)
         metre = 1 / EARTH_RADIUS_M

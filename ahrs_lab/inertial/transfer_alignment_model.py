@@ -208,6 +208,8 @@ def comparison_matrix(C_bn: Array) -> Array:
     H[:, 5, 0] = -forward[:, 2] * forward[:, 0] / level
     H[:, 5, 1] = -forward[:, 2] * forward[:, 1] / level
     H[:, 5, 2] = 1.0
+    # the mounting about x is read from both attitudes, so the unit's misalignment is in it
+    H[:, 5, PHI] += tilt_share(C_bn)[:, np.newaxis] * C_bn[:, :, 0]
     H[:, 5, AZIMUTH] = azimuth_share(C_bn)
     H[:, 6:9, PHI] = -np.eye(3)
     H[:, 6:9, MOUNTING] = C_bn
@@ -218,6 +220,13 @@ def azimuth_share(C_bn: Array) -> Array:
     """cos γ/cos θ, shape (b,): how far a turn about the case's z axis shows in azimuth."""
     forward = C_bn[:, :, 1]
     return np.asarray(C_bn[:, 2, 2] / (forward[:, 0] ** 2 + forward[:, 1] ** 2))
+
+
+def tilt_share(C_bn: Array) -> Array:
+    """sin γ/cos θ, shape (b,): how far a turn about the case's x axis shows in azimuth, in a bank."""
+    up, forward = C_bn[:, :, 2], C_bn[:, :, 1]
+    across = up[:, 0] * forward[:, 1] - up[:, 1] * forward[:, 0]
+    return np.asarray(across / (forward[:, 0] ** 2 + forward[:, 1] ** 2))
 
 
 def prior_covariance(motion: Motion, assumed: Assumptions, copied: bool, method: Method) -> Array:

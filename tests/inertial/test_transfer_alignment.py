@@ -282,7 +282,11 @@ def test_what_is_compared_changes_with_the_states_as_H_says(angles: tuple[float,
         turn = size * np.eye(3)[axis]
         wrong = rotation_from_vector(-turn) @ C
         azimuth = (attitude_angles_deg(wrong)[0] - attitude_angles_deg(C)[0])[0] * DEGREE
-        assert azimuth == pytest.approx(H[5, axis] * size, abs=1e-11)
+        # the mounting about x that both attitudes show is taken off
+        shown = Rotation.from_matrix((C.mT @ wrong)[0]).as_rotvec()[0]
+        rolled = C @ rotation_from_vector([size, 0.0, 0.0])
+        share = (attitude_angles_deg(rolled)[0] - attitude_angles_deg(C)[0])[0] * DEGREE / size
+        assert azimuth - share * shown == pytest.approx(H[5, axis] * size, abs=1e-11)
         between = Rotation.from_matrix((wrong @ C.mT)[0]).as_rotvec()
         np.testing.assert_allclose(between, H[6:9, axis] * size, atol=1e-11)
         # the case is turned by λ against what is believed of it: T_b = T_a(I + λ×)

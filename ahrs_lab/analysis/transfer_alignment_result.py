@@ -95,10 +95,12 @@ class TransferResult:
 
     @property
     def shrunk(self) -> Array:
-        """Per estimated state the uncertainty at the end over that assumed at the start."""
+        """Per estimated state the uncertainty at the end over that assumed at the start; 0 where that was 0,
+        for nothing was left to be seen."""
         states = list(self.aligned.method.estimated)
-        left = self.aligned.estimate_u[0, -1, states] / self.aligned.prior_u[: len(states)]
-        return np.asarray(left, dtype=np.float64)
+        prior = self.aligned.prior_u[: len(states)]
+        left = self.aligned.estimate_u[0, -1, states]
+        return np.divide(left, prior, out=np.zeros(len(states)), where=prior > 0.0)
 
     @property
     def singular_values(self) -> Array:

@@ -327,6 +327,7 @@ def test_recordings_that_contradict_each_other_are_refused(
         (None, lambda s: s.with_columns({n: s[n] / 9.8 for n in ACCEL}), "velocity", {}, "look like g"),
         (None, None, "velocity", {"velocity_noise_mps": 0.0}, "above 0"),
         (None, None, "velocity", {"level_deg": float("nan")}, "above 0"),
+        (None, None, "velocity-attitude", {"attitude_noise_deg": 1e300}, "at most 1000000"),
         (None, None, "velocity", {"every_s": -1.0}, "above 0"),
         (None, None, "angles", {}, "no method angles"),
         (None, None, "velocity", {"reference_segment": "x"}, "has no segment x"),
@@ -342,6 +343,11 @@ def test_what_cannot_be_aligned_is_told(
 ) -> None:
     with pytest.raises(InputError, match=what):
         aligned(reference(tmp_path, change=of_reference), unit(tmp_path, change=of_unit), method, **settings)
+
+
+def test_what_is_known_exactly_is_not_missed(tmp_path: Path) -> None:
+    data = aligned(reference(tmp_path), unit(tmp_path, mounting=0 * MOUNTING), level_deg=0.0).data
+    assert not {"φ_E", "φ_N"} & set(data["not_shown"])
 
 
 def test_an_initial_state_that_is_none_is_told(tmp_path: Path) -> None:

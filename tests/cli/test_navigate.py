@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 
 import pytest
+from pyarrow import parquet
 
 from ahrs_lab.cli import main
 from ahrs_lab.simulation.manoeuvres import Accelerate, Steady
@@ -30,6 +31,17 @@ def test_navigate_prints_one_object(bundle: Path, capsys: Capture) -> None:
     assert final["heading_deg"] == pytest.approx(30.0, abs=1e-6)
     assert final["velocity_enu_mps"][2] == pytest.approx(0.0, abs=1e-6)
     assert final["t_s"] == 7.0
+
+
+def test_what_stands_against_the_numbers_is_said_beside_the_object(bundle: Path, capsys: Capture) -> None:
+    segment = next((bundle / "segments").iterdir())
+    table = parquet.read_table(segment)
+    times = table["t_s"].to_numpy()
+    parquet.write_table(table.filter((times < 3.0) | (times > 3.4)), segment)
+    assert main(["navigate", str(bundle), "--json"]) == 0
+    captured = capsys.readouterr()
+    assert list(json.loads(captured.out)) == ["final"]
+    assert "warning: 1 gaps" in captured.err
 
 
 def test_navigate_leaves_the_series(bundle: Path, tmp_path: Path, capsys: Capture) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -36,12 +37,21 @@ def run_kind(
 
 
 def show(outcome: Outcome, files: Iterable[Path], arguments: argparse.Namespace) -> None:
-    """Print what came out, as text with the ``files`` that were written, or as one JSON object."""
+    """Print what came out, as text with the ``files`` that were written, or as one JSON object; then what
+    stands against the numbers goes to standard error, for not every object has a place for it."""
     from ahrs_lab.analysis.report import report_text
 
-    # names in a report come from files of anybody: none may drive the terminal
-    text = "".join(c if c == "\n" or c.isprintable() else " " for c in report_text(outcome.report))
+    if arguments.json:
+        for warning in outcome.report.warnings:
+            sys.stderr.write(f"ahrs-lab: warning: {_printable(warning.text())}
+")
+    text = _printable(report_text(outcome.report))
     written = ", ".join(str(path) for path in files)
     if written:
         text += f"\n\nFiles: {written}"
     print(json.dumps(outcome.data, ensure_ascii=False, allow_nan=False) if arguments.json else text)
+
+
+def _printable(text: str) -> str:
+    """Names in a report come from files of anybody: none may drive the terminal."""
+    return "".join(c if c == "\n" or c.isprintable() else " " for c in text)

@@ -29,6 +29,7 @@ _METHODS = (
 )
 
 _DEGREE, _HOUR = radians(1.0), 3600.0
+_LARGEST: Final = 1e6
 
 # key, what is read, default, unit, SI per unit, field of Assumptions
 _ASSUMED: Final = (
@@ -118,8 +119,13 @@ def _assumptions(settings: Mapping[str, Value]) -> Assumptions:
     for key, label, _, _, unit, field in _ASSUMED:
         value = float(settings[key])
         # what is compared cannot be without noise; what is known may be known exactly
-        if not (value >= 0 and np.isfinite(value)) or (value == 0 and field.endswith(_NOISES)):
-            raise InputError("{what} is {value}: it has to be above 0.", what=label, value=value)
+        if not 0 <= value <= _LARGEST or (value == 0 and field.endswith(_NOISES)):
+            raise InputError(
+                "{what} is {value}: it has to be above 0 and at most {most}.",
+                what=label,
+                value=value,
+                most=f"{_LARGEST:.0f}",
+            )
         values[field] = value * unit
     return Assumptions(**values)
 

@@ -207,7 +207,9 @@ def _track(
             Message("The reference has no position: the carrier's path is reckoned from its velocity.")
         )
         values |= _reckoned(
-            t_s, values, [float(initial.get(n, p)) for n, p in zip(POSITION, place, strict=True)]
+            t_s,
+            values,
+            [_number({n: p, **initial}, n) for n, p in zip(POSITION, place, strict=True)],
         )
     if any(name not in values for name in VELOCITY_ENU):
         warnings.append(

@@ -345,6 +345,17 @@ def test_what_cannot_be_aligned_is_told(
         aligned(reference(tmp_path, change=of_reference), unit(tmp_path, change=of_unit), method, **settings)
 
 
+def test_a_place_that_is_none_is_told_where_the_reference_has_none(tmp_path: Path) -> None:
+    names = ("latitude_deg", "longitude_deg", "altitude_m")
+    shown = reference(
+        tmp_path, change=lambda s: Samples({n: c for n, c in s.columns.items() if n not in names})
+    )
+    for place in ("north", [45.0]):
+        broken = {**initial_state(carrier()), "latitude_deg": place}
+        with pytest.raises(InputError, match="latitude_deg is no number"):
+            aligned(shown, unit(tmp_path / str(place), initial=broken))
+
+
 def test_what_is_known_exactly_is_not_missed(tmp_path: Path) -> None:
     data = aligned(reference(tmp_path), unit(tmp_path, mounting=0 * MOUNTING), level_deg=0.0).data
     assert not {"φ_E", "φ_N"} & set(data["not_shown"])

@@ -49,8 +49,6 @@ Array = NDArray[np.float64]
 
 GRAVITY_NOTE = "gravity_mps2"
 """Key of ``[site]`` for the measured gravity of the place."""
-LARGEST_OUTPUT = 1e15
-"""Counts of 48 bits; beyond, sums of squares lose their digits."""
 NOMINAL_RATE_SCALE = {"deg/s": 1.0, "rad/s": radians(1.0)}
 """E1 of a perfect unit, by its rate_unit."""
 
@@ -173,21 +171,6 @@ def _reference(header: RecordingHeader, gravity_mps2: float | None) -> tuple[Ref
 
 
 def _refuse_unfit(turning: Sequence[InertialRecord], resting: Sequence[InertialRecord]) -> None:
-    for record in (*turning, *resting):
-        for name in (*GYRO, *ACCEL):
-            column = record.samples.get(name)
-            largest = (
-                0.0
-                if column is None
-                else float(np.max(np.abs(column), initial=0.0, where=np.isfinite(column)))
-            )
-            if largest > LARGEST_OUTPUT:
-                raise InputError(
-                    "{file}: {column} goes up to {largest}, which no sensor puts out: check the file.",
-                    file=record.segment.file,
-                    column=name,
-                    largest=f"{largest:.3g}",
-                )
     for record in resting:
         force = record.needed_force()
         empty = [name for name, column in zip(ACCEL, force.T, strict=True) if not np.isfinite(column).any()]

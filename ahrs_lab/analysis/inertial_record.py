@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 
 _NAMED = 6
 TO_RADPS = {"deg/s": radians(1.0), "rad/s": 1.0, "LSB": 1.0}
+LARGEST_OUTPUT = 1e15
+"""In any unit: the square of what is larger could not be computed with."""
 TO_MPS2 = {"m/s^2": 1.0, "g": STANDARD_GRAVITY_MPS2, "LSB": 1.0}
 
 
@@ -133,6 +135,7 @@ def inertial_record(header: RecordingHeader, recorded: RecordedSegment) -> Inert
             file=recorded.segment.file,
             missing=", ".join(missing),
         )
+    _refuse_huge(recorded)
     interval = interval_s(samples, device.sample_rate_hz)
     force = None
     if all(name in samples for name in ACCEL):
@@ -148,6 +151,21 @@ def inertial_record(header: RecordingHeader, recorded: RecordedSegment) -> Inert
         samples=samples,
         warnings=tuple(finding.placed for finding in recorded.findings),
     )
+
+
+def _refuse_huge(recorded: RecordedSegment) -> None:
+    for name in (*GYRO, *ACCEL):
+        column = recorded.samples.get(name)
+        if column is None:
+            continue
+        largest = float(np.max(np.abs(column), initial=0.0, where=np.isfinite(column)))
+        if largest > LARGEST_OUTPUT:
+            raise InputError(
+                "{file}: {column} goes up to {largest}, which no sensor puts out: check the file.",
+                file=recorded.segment.file,
+                column=name,
+                largest=f"{largest:.3g}",
+            )
 
 
 def unit_doubts(record: InertialRecord) -> tuple[Message, ...]:

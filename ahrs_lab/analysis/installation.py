@@ -226,6 +226,13 @@ def level_reading(recording: Recording, file: str | None, reading: LevelCarrier)
     stated = reading.u_attitude_deg
     moved = float(np.max(np.ptp(blocks, axis=0)))
     warnings = [finding.placed for finding in recorded.findings]
+    if moved > LEVEL_LIMIT_DEG:
+        raise InputError(
+            "{file}: pitch or roll moved by {moved}° while the level carrier was recorded: record it at "
+            "rest.",
+            file=recorded.segment.file,
+            moved=f"{moved:.3f}",
+        )
     if moved > MOVED_DEG:
         warnings.append(
             Message(

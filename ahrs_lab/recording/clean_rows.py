@@ -23,9 +23,6 @@ RATE_TOLERANCE = 0.01
 WRONG_RATE = 0.1
 """Beyond this the header's sample rate is not believed."""
 
-LARGEST = 1e100
-"""A number beyond this is no reading of anything: its square would be none."""
-
 
 @dataclass(frozen=True)
 class CleanRows:
@@ -50,30 +47,22 @@ def clean_rows(raw: RawSegment, sample_rate_hz: float, found: FindingList) -> Cl
         )
     good = _report_bad_cells(raw, needed, found)
     t_s = raw.columns["t_s"]
-    timed = np.flatnonzero(_is_number(t_s))
+    timed = np.flatnonzero(np.isfinite(t_s))
     rising = timed[_report_backward_times(t_s[timed], raw.lines[timed], found)]
     step_s = _sample_interval(t_s[rising], sample_rate_hz, raw, found)
     lost = _report_gaps(t_s[rising], raw.lines[rising], _counter(raw, rising), step_s, found)
     rows = rising[good[rising]]
     lost += len(rising) - len(rows)
-    columns = {
-        name: column if (number := _is_number(column)).all() else np.where(number, column, np.nan)
-        for name, column in raw.columns.items()
-    }
     if len(rows) == len(raw):
-        return CleanRows(Samples(columns), raw.lines, lost, step_s)
-    kept = Samples({name: column[rows] for name, column in columns.items()})
+        return CleanRows(Samples(raw.columns), raw.lines, lost, step_s)
+    kept = Samples({name: column[rows] for name, column in raw.columns.items()})
     return CleanRows(kept, raw.lines[rows], lost, step_s)
-
-
-def _is_number(column: Array) -> Mask:
-    return np.asarray(np.abs(column) <= LARGEST)
 
 
 def _report_bad_cells(raw: RawSegment, needed: tuple[str, ...], found: FindingList) -> Mask:
     """Which rows have a number in every needed column; each run of equal bad rows is one finding."""
     names = tuple(raw.columns)
-    bad_by_column = [~_is_number(raw.columns[name]) for name in names]
+    bad_by_column = [~np.isfinite(raw.columns[name]) for name in names]
     any_bad: Mask = np.logical_or.reduce(bad_by_column)
     rows = np.flatnonzero(any_bad)
     if not len(rows):

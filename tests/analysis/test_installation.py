@@ -72,6 +72,12 @@ def test_a_carrier_that_moved_is_told(tmp_path: Path) -> None:
     assert "moved by" in result.warnings[0].text()
 
 
+def test_a_carrier_that_was_not_level_all_the_time_is_refused(tmp_path: Path) -> None:
+    rows = np.column_stack([np.zeros(100), np.linspace(0.0, 34.0, 100), np.zeros(100)])
+    with pytest.raises(InputError, match="record it at rest"):
+        level_reading(read_bundle(angles_bundle(tmp_path, rows)), "run", LEVEL)
+
+
 @pytest.mark.parametrize(
     ("reading", "what"),
     [

@@ -94,22 +94,6 @@ def test_a_device_is_no_recording(tmp_path: Path) -> None:
         read_bundle(tmp_path / "pipe.ahrsrec")
 
 
-def test_a_number_too_large_for_any_reading_is_no_number(tmp_path: Path) -> None:
-    """Its square would be infinite, and so would be what is computed from it."""
-    folder = write_bundle(tmp_path / "bundle", four_positions())
-    file = sorted((folder / "segments").glob("*.csv"))[0]
-    lines = file.read_text().splitlines()
-    column = lines[0].split(",").index("gyro_x")
-    cells = lines[5].split(",")
-    cells[column] = "-1e300"
-    file.write_text("\n".join([*lines[:5], ",".join(cells), *lines[6:]]) + "\n")
-    segment = next(s for s in read_bundle(folder).segments if s.segment.file.endswith(file.name))
-    assert "no number: gyro_x = “-1e+300”. The row is left out." in str(segment.findings[0].what)
-    assert segment.findings[0].line == 6
-    assert segment.lost == 1
-    assert abs(segment.samples["gyro_x"]).max() < 1e3
-
-
 def test_a_huge_header_is_not_read_into_memory(tmp_path: Path) -> None:
     folder = write_bundle(tmp_path / "bundle", four_positions())
     with (folder / "recording.toml").open("r+b") as file:

@@ -43,8 +43,7 @@ def show(outcome: Outcome, files: Iterable[Path], arguments: argparse.Namespace)
 
     if arguments.json:
         for warning in outcome.report.warnings:
-            sys.stderr.write(f"ahrs-lab: warning: {_printable(warning.text())}
-")
+            sys.stderr.write(f"ahrs-lab: warning: {_printable(warning.text())}\n")
     text = _printable(report_text(outcome.report))
     written = ", ".join(str(path) for path in files)
     if written:

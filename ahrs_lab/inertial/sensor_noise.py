@@ -32,9 +32,8 @@ _HIGH_PASS_S: Final = 0.55
 _HIGH_PASS_VARIANCE: Final = 1.07
 """Of :class:`FastFlicker`, time constant and gain: so the sum with the interpolated grid is flattest."""
 _RUN_IN_S: Final = 8.0
-_DISTINCT: Final = 1e-7
-"""Poles of one recursion: the product of one's distances from the others, below which digits are lost."""
 _CHUNK: Final = 4096
+_ROW: Final = 64
 _COVERED: Final = 0.002
 """Flicker below this share of the white noise's Allan variance is not seen in it."""
 
@@ -148,8 +147,7 @@ class FastFlicker:
         size = np.sqrt(_VARIANCE * _HIGH_PASS_VARIANCE) * coefficients.bias_instability
         self._size = float(gain * 0.5 * (1.0 + high_pass) * size)
         zeros, poles = np.append(zeros, 1.0), np.append(poles, high_pass)
-        apart = next(n for n in range(1, len(poles) + 1) if all(_distinct(poles[i::n]) for i in range(n)))
-        self._sections = [_Section(zeros[i::apart], poles[i::apart]) for i in range(apart)]
+        self._filter = _Recursion(zeros, poles)
         for _ in range(1 + round(_RUN_IN_S / interval_s) // _CHUNK):
             self._made = self._next()
         self._used = 0
@@ -171,42 +169,46 @@ class FastFlicker:
         """A chunk; always a whole one, so that its sums do not depend on how many were asked for."""
         made = self._rng.standard_normal(_CHUNK)
         made *= self._size
-        for section in self._sections:
-            made = section(made)
-        return made
+        return self._filter(made)
 
 
-def _distinct(poles: Array) -> bool:
-    distances = np.abs(poles[:, np.newaxis] - poles)
-    np.fill_diagonal(distances, 1.0)
-    return bool(distances.prod(axis=1).min() > _DISTINCT)
+class _Recursion:
+    """The recursive filter Π(1 − zᵢ/z)/Π(1 − pᵢ/z) with more ``poles`` than ``zeros``, all real, the poles
+    distinct, by matrix products.
 
-
-class _Section:
-    """A recursive filter with a few ``poles`` that lie apart, and as many ``zeros`` or fewer, all real.
-
-    The recursion is the solution of a banded triangular system, which LAPACK does at the speed of a filter,
-    without the second that importing scipy.signal takes.
+    It is a sum of first-order recursions, one a pole. What they hold at the end of each row of samples is a
+    sum over the rows before; within a row the filter is its impulse response. Numbers as of a recursion
+    sample by sample, to rounding.
     """
 
     def __init__(self, zeros: Array, poles: Array) -> None:
-        self._ahead, self._back = np.poly(zeros), np.poly(poles)
-        self._band = np.asfortranarray(np.repeat(self._back[:, np.newaxis], _CHUNK, axis=1))
-        self._inputs, self._outputs = np.zeros(len(zeros)), np.zeros(len(poles))
+        apart = 1.0 - poles / poles[:, np.newaxis]
+        np.fill_diagonal(apart, 1.0)
+        share = np.prod(1.0 - zeros / poles[:, np.newaxis], axis=1) / np.prod(apart, axis=1)
+        step, row = np.arange(_ROW), np.arange(_CHUNK // _ROW)
+        after = step - step[:, np.newaxis]
+        response = share @ poles[:, np.newaxis] ** step
+        self._within = np.where(after >= 0, response[after], 0.0)
+        self._held = poles[:, np.newaxis] ** step[::-1]
+        self._shown = (share * poles)[:, np.newaxis] * poles[:, np.newaxis] ** step
+        faded = (poles**_ROW)[:, np.newaxis]
+        self._faded = faded ** np.append(row, len(row))
+        later = row - row[:, np.newaxis]
+        self._carried = np.ascontiguousarray(
+            np.where(later > 0, self._faded[:, np.maximum(later - 1, 0)], 0.0)
+        )
+        self._last = faded ** row[::-1]
+        self._state = np.zeros((len(poles), 1))
 
     def __call__(self, values: Array) -> Array:
         """The next chunk."""
-        from scipy.linalg.lapack import dtbtrs
-
-        inputs = np.concatenate((self._inputs, values))
-        driven = np.convolve(inputs, self._ahead, "valid")
-        before = self._outputs[::-1]
-        for i in range(len(before)):
-            driven[i] -= self._back[i + 1 :] @ before[: len(before) - i]
-        made, _ = dtbtrs(self._band, driven, uplo="L", diag="U", overwrite_b=1)
-        self._inputs = values[_CHUNK - len(self._inputs) :].copy()
-        self._outputs = made[_CHUNK - len(self._outputs) :].copy()
-        return np.asarray(made, dtype=np.float64)
+        rows = values.reshape(-1, _ROW)
+        gained = self._held @ rows.T
+        before = (gained[:, np.newaxis] @ self._carried)[:, 0] + self._state * self._faded[:, :-1]
+        self._state = np.sum(gained * self._last, axis=1, keepdims=True) + self._state * self._faded[:, -1:]
+        made: Array = rows @ self._within
+        made += before.T @ self._shown
+        return made.reshape(-1)
 
 
 def _sum_of_markov_processes(decay: Array, variance: Array) -> tuple[Array, Array, float]:

@@ -99,13 +99,22 @@ def test_interpolation_is_numpys() -> None:
     np.testing.assert_allclose(between(nodes, np.empty(500)), reference, atol=1e-14)
 
 
-@pytest.mark.parametrize("decays", [(0.99, 0.96, 0.9), (0.9995, 0.995, 0.95), (0.5,)])
-def test_a_recursive_section_is_scipys_filter(decays: tuple[float, ...]) -> None:
+@pytest.mark.parametrize(
+    "decays",
+    [
+        (0.99, 0.96, 0.9),
+        (0.9995, 0.9991, 0.995, 0.95),
+        (0.5,),
+        tuple(np.exp(-0.01 / 10.0 ** (-np.arange(5) / 2.0))),
+        tuple(np.exp(-0.0002 / 10.0 ** (-np.arange(7) / 2.0))),
+    ],
+)
+def test_the_recursion_by_rows_is_scipys_filter(decays: tuple[float, ...]) -> None:
     poles = np.array(decays)
-    zeros = 0.99 * poles[1:]
-    section = sensor_noise._Section(zeros, poles)
+    zeros = 0.5 * (poles[1:] + poles[:-1])
+    recursion = sensor_noise._Recursion(zeros, poles)
     given = np.random.default_rng(5).standard_normal((3, sensor_noise._CHUNK))
     sections = scipy.signal.zpk2sos(np.append(zeros, 0.0), poles, 1.0)
     expected = scipy.signal.sosfilt(sections, given.ravel())
-    found = np.concatenate([section(chunk) for chunk in given])
-    assert found == pytest.approx(expected, abs=1e-7 * float(np.std(expected)))
+    found = np.concatenate([recursion(chunk) for chunk in given])
+    assert found == pytest.approx(expected, abs=1e-9 * float(np.std(expected)))

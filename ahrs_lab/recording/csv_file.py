@@ -15,6 +15,7 @@ from typing import BinaryIO
 import numpy as np
 
 from ahrs_lab.messages import Message
+from ahrs_lab.recording.arrow_columns import arrow_arrays
 from ahrs_lab.recording.raw_segment import (
     MAX_ROWS,
     RawSegment,
@@ -52,7 +53,7 @@ def write_csv(samples: Samples, target: BinaryIO) -> None:
     header = io.StringIO()
     csv.writer(header, lineterminator="\n").writerow(samples.columns)
     target.write(header.getvalue().encode())
-    table = pa.table({name: pa.array(column) for name, column in samples.columns.items()})
+    table = pa.Table.from_arrays(arrow_arrays(samples), list(samples.columns))
     arrow_csv.write_csv(table, target, arrow_csv.WriteOptions(include_header=False))
 
 

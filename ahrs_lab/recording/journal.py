@@ -16,6 +16,7 @@ from typing import BinaryIO
 import numpy as np
 
 from ahrs_lab.errors import InputError
+from ahrs_lab.recording.arrow_columns import arrow_arrays, arrow_schema
 from ahrs_lab.recording.bundle_toml import segment_from_table, segment_to_table
 from ahrs_lab.recording.samples import Samples, concatenate
 from ahrs_lab.recording.segment import Segment
@@ -75,14 +76,11 @@ class Journal:
 
         if not len(samples):
             return
-        arrays = {
-            name: np.ascontiguousarray(column, dtype=np.float64) for name, column in samples.columns.items()
-        }
         described = json.dumps(segment_to_table(self.segment)).encode()
-        schema = pa.schema([(name, pa.float64()) for name in arrays], metadata={_KEY: described})
+        schema = arrow_schema(list(samples.columns), {_KEY: described})
         if not self._file.tell():
             _write_all(self._file, memoryview(schema.serialize()))
-        batch = pa.record_batch(list(arrays.values()), schema=schema)
+        batch = pa.record_batch(arrow_arrays(samples), schema=schema)
         _write_all(self._file, memoryview(batch.serialize()))
 
     def end(self) -> None:
@@ -138,9 +136,7 @@ def recover(path: Path) -> Recovered | None:
 
 def _load_arrow() -> None:
     """Before the first sample: loading takes seconds on a busy computer, in which a run would stand still."""
-    import pyarrow as pa
-
-    pa.array(np.empty(0))
+    arrow_arrays(Samples({"t_s": np.empty(0)}))
 
 
 def _write_all(file: BinaryIO, content: memoryview) -> None:

@@ -8,6 +8,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from ahrs_lab.messages import Message
+from ahrs_lab.recording.arrow_columns import arrow_arrays, arrow_schema
 from ahrs_lab.recording.raw_segment import (
     MAX_ROWS,
     RawSegment,
@@ -53,7 +54,7 @@ def write_parquet(samples: Samples, target: BinaryIO) -> None:
     import pyarrow as pa
     from pyarrow import parquet
 
-    table = pa.table({name: pa.array(column) for name, column in samples.columns.items()})
+    table = pa.Table.from_arrays(arrow_arrays(samples), schema=arrow_schema(list(samples.columns)))
     parquet.write_table(table, target, use_dictionary=False, compression="none", write_statistics=False)
 
 

@@ -196,6 +196,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:  # a Windows console's code page lacks ° and Chinese
             reconfigure(encoding="utf-8", errors="replace")
+    # Our matrices are small: threads of the linear algebra would only keep a core busy waiting, and rounding
+    # would depend on how many there are.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     arguments = _parser().parse_args(argv)
     try:
         from ahrs_lab.cli import commands

@@ -14,6 +14,7 @@ from ahrs_lab.cli.stop_signals import stop_signals
 from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle, read_result, write_files
 from ahrs_lab.laboratory.judgement import Judged, judge_result
+from ahrs_lab.laboratory.kept_memory import keep_memory
 from ahrs_lab.laboratory.results import AnyResult, to_json
 from ahrs_lab.metrology.best_capability import BestCapability
 from ahrs_lab.metrology.conformity_json import conformity_to_json
@@ -68,6 +69,7 @@ def _demo(arguments: argparse.Namespace) -> int:
 
     if arguments.out is None:
         raise InputError("Say with --out DIR where the demonstration shall leave its files.")
+    keep_memory()
     plan = load_plan(arguments.plan) if arguments.plan else None
     with stop_signals(), ProgressLine(sys.stderr) as progress:
         outcome = run_demonstration(
@@ -86,6 +88,7 @@ def _run(arguments: argparse.Namespace) -> int:
     from ahrs_lab.laboratory.headless import run_plan
     from ahrs_lab.procedures.plan import load_plan
 
+    keep_memory()
     plan = load_plan(arguments.plan)
     job = _job(arguments)
     bench = load_bench(arguments.bench, speed=arguments.speed)

@@ -12,10 +12,12 @@ from datetime import date, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ahrs_lab.certificates.libraries import load_layout, load_signing
 from ahrs_lab.errors import AhrsLabError, InputError
 from ahrs_lab.laboratory import certification
 from ahrs_lab.laboratory.benches import bench_presets, plan_presets
 from ahrs_lab.laboratory.evaluation import OutputFolder, write_files
+from ahrs_lab.laboratory.evaluation_beside import EvaluationBeside
 from ahrs_lab.laboratory.headless import wait_for
 from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.metrology.conformity import DecisionRule
@@ -37,6 +39,7 @@ from ahrs_lab.records.rows import (
 
 if TYPE_CHECKING:
     from ahrs_lab.laboratory.laboratory import Laboratory
+    from ahrs_lab.laboratory.live_run import LiveRun
     from ahrs_lab.procedures.events import Event
     from ahrs_lab.procedures.plan import Plan
 
@@ -254,9 +257,13 @@ def run_demonstration(
             with OutputFolder(out):
                 _put_aside(out)
             number = laboratory.create_job(draft, actor, out)
-        _measure(laboratory, number, actor, speed, on_event)
-        on_stage("evaluating")
-        result = laboratory.finish_run(number, actor)
+        run = laboratory.start_run(
+            number, actor, on_event=on_event, on_samples=lambda _samples: None, speed=speed, ask=False
+        )
+        with EvaluationBeside(run, meanwhile=_load_libraries) as beside:
+            _measure(laboratory, number, actor, run)
+            on_stage("evaluating")
+            result = laboratory.finish_run(number, actor, beside.evaluate)
         files = {"recording": laboratory.bundle(number), **write_files(result, out, record=False)}
         files["original_record"] = laboratory.original_record(number)
         on_stage("certificate and signatures")
@@ -273,22 +280,20 @@ def run_demonstration(
     return DemonstrationOutcome(result, files)
 
 
-def _measure(
-    laboratory: Laboratory,
-    number: str,
-    actor: SignedIn,
-    speed: float | None,
-    on_event: Callable[[Event], None],
-) -> None:
-    run = laboratory.start_run(
-        number, actor, on_event=on_event, on_samples=lambda _samples: None, speed=speed, ask=False
-    )
+def _measure(laboratory: Laboratory, number: str, actor: SignedIn, run: LiveRun) -> None:
     run.start()
     try:
         wait_for(run)
     except AhrsLabError as error:
         laboratory.leave_run(number, actor, error.message)
         raise
+
+
+def _load_libraries() -> None:
+    import scipy.special  # noqa: F401  the distributions of a verdict
+
+    load_layout()
+    load_signing()
 
 
 def _plan_text(plan: Plan | None) -> str:

@@ -4,9 +4,10 @@ they give the same numbers."""
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import ahrs_lab
 from ahrs_lab.errors import InputError, MachineError
@@ -14,6 +15,9 @@ from ahrs_lab.laboratory.results import AnyResult, from_json, to_json
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.imu_result import PROCEDURE as IMU_PROCEDURE
 from ahrs_lab.metrology.imu_result import ImuResult
+
+if TYPE_CHECKING:
+    from ahrs_lab.recording.read import ReadAhead
 
 SOFTWARE = f"ahrs-lab {ahrs_lab.__version__}"
 MAXIMAL_RESULT_BYTES = 64 * 2**20
@@ -31,20 +35,26 @@ class EvaluationSettings:
     """U of B includes what B may be another day, as the job asks."""
 
 
+Evaluate = Callable[[Path, EvaluationSettings | None, BenchCapability | None], AnyResult]
+"""From a recording, what the person chose and the bench's figures to the result."""
+
+
 def evaluate_bundle(
     bundle: Path,
     settings: EvaluationSettings | None = None,
     capability: BenchCapability | None = None,
+    ahead: ReadAhead | None = None,
 ) -> AnyResult:
     """Read ``bundle`` (folder or ``.ahrsrec``) with all its checks and reduce it by the procedure it was
     recorded for; ``settings`` are of JJF 1536.
 
     ``capability``: the bench's figures; None: those that the recording names, else clause 6's own.
+    ``ahead``: what was read of the folder before.
     """
     from ahrs_lab.procedures.reduction import reduce_recording
     from ahrs_lab.recording.read import read_bundle
 
-    recording = read_bundle(bundle)
+    recording = read_bundle(bundle, ahead)
     if recording.header.procedure == IMU_PROCEDURE:
         from ahrs_lab.laboratory.imu_evaluation import evaluate_imu
 

@@ -7,9 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from ahrs_lab.certificates.libraries import load_layout
 from ahrs_lab.errors import AbortedError, AhrsLabError
 from ahrs_lab.instruments.interfaces import Bench
-from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle, write_files
+from ahrs_lab.laboratory.evaluation import EvaluationSettings, write_files
+from ahrs_lab.laboratory.evaluation_beside import EvaluationBeside
 from ahrs_lab.laboratory.header import recording_header
 from ahrs_lab.laboratory.live_run import LiveRun
 from ahrs_lab.laboratory.results import AnyResult
@@ -65,13 +67,14 @@ def run_plan(
     bundle = out / "recording"
     header = recording_header(bench, plan, capability=capability)
     run = LiveRun(bench, plan, bundle, header, on_event=on_event, on_samples=_unheard, ask=False)
-    if again_from:
-        run.start_from(again_from, reason)
-    else:
-        run.start()
-    wait_for(run)
-    result = evaluate_bundle(bundle, settings, capability)
-    return HeadlessOutcome(bundle, result, write_files(result, out))
+    with EvaluationBeside(run, meanwhile=load_layout) as beside:
+        if again_from:
+            run.start_from(again_from, reason)
+        else:
+            run.start()
+        wait_for(run)
+        result = beside.evaluate(bundle, settings, capability)
+        return HeadlessOutcome(bundle, result, write_files(result, out))
 
 
 def wait_for(run: LiveRun) -> None:

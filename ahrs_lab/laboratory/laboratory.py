@@ -18,7 +18,7 @@ from ahrs_lab.errors import InputError, PermissionDeniedError
 from ahrs_lab.instruments.interfaces import Bench
 from ahrs_lab.laboratory import certification, job_sheets
 from ahrs_lab.laboratory.benches import bench_from_text, bench_presets, plan_from_text, plan_presets
-from ahrs_lab.laboratory.evaluation import EvaluationSettings, evaluate_bundle
+from ahrs_lab.laboratory.evaluation import Evaluate, EvaluationSettings, evaluate_bundle
 from ahrs_lab.laboratory.home import home_folder
 from ahrs_lab.laboratory.judgement import Judged, judge_for_screen
 from ahrs_lab.laboratory.results import AnyResult, from_json_text, to_json
@@ -210,10 +210,10 @@ class Laboratory:
 
         take_up(self, number, actor, reason)
 
-    def finish_run(self, number: str, actor: SignedIn) -> AnyResult:
+    def finish_run(self, number: str, actor: SignedIn, evaluate: Evaluate = evaluate_bundle) -> AnyResult:
         """Evaluate what the job's run recorded, keep the result, and call
         the job measured."""
-        result = self.recalculate(number, EvaluationSettings(), actor)
+        result = self.recalculate(number, EvaluationSettings(), actor, evaluate)
         if self.job(number).state == "running":
             self.records.jobs.move(number, "measured", actor)
         return result
@@ -224,14 +224,20 @@ class Laboratory:
         if self.job(number).state == "running":
             self.records.jobs.move(number, "ready", actor)
 
-    def recalculate(self, number: str, settings: EvaluationSettings, actor: SignedIn) -> AnyResult:
+    def recalculate(
+        self,
+        number: str,
+        settings: EvaluationSettings,
+        actor: SignedIn,
+        evaluate: Evaluate = evaluate_bundle,
+    ) -> AnyResult:
         """Reduce the job's recording again, as its customer asked; the result becomes the current one,
         earlier ones stay."""
         job = self.job(number)
         capability = job_sheets.capability(job)
         asked = requirements_from_json(job.limits_json)
         settings = replace(settings, repeatability=asked.repeatability)
-        result = evaluate_bundle(self.bundle(number), settings, capability)
+        result = evaluate(self.bundle(number), settings, capability)
         self.records.jobs.add_result(
             number, json.dumps(to_json(result), ensure_ascii=False, allow_nan=False), actor
         )

@@ -130,10 +130,10 @@ class LiveRun:
     ) -> None:
         self.plan = plan
         self.folder = folder
-        self._header = header
+        self.header = header
         self._screen = ScreenOperator(bench.operator if bench.simulated else None)
         self._bench = replace(bench, operator=self._screen) if ask else bench
-        self._on_event = on_event
+        self._listeners = [on_event]
         self._on_samples = on_samples
         self._ended = threading.Event()
         self._ended.set()
@@ -153,6 +153,10 @@ class LiveRun:
     def bench(self) -> Bench:
         """The bench this run is on."""
         return self._bench
+
+    def listen(self, on_event: Callable[[Event], None]) -> None:
+        """Tell ``on_event`` too, in the run's thread; before the start."""
+        self._listeners.append(on_event)
 
     def start(self) -> None:
         """Begin, or go on with what an earlier run left in the folder."""
@@ -197,7 +201,7 @@ class LiveRun:
             raise InputError("A run is going on: stop it or wait for its end.")
         self._screen.reset()
         self.outcome = None
-        writer = open_bundle(self.folder, self._header)
+        writer = open_bundle(self.folder, self.header)
         try:
             procedure, self.steps = work(writer)
             self.recorded_before = counting(writer.segments)
@@ -233,7 +237,8 @@ class LiveRun:
     def _tell(self, event: Event) -> None:
         if isinstance(event, StateChanged):
             self._state = event.state
-        self._on_event(event)
+        for listener in self._listeners:
+            listener(event)
 
     def confirm_mounted(self) -> None:
         """The person says that the case stands as asked."""

@@ -58,7 +58,7 @@ class FolderSource:
     def open(self, name: str) -> BinaryIO:
         return self._inside(name).open("rb")
 
-    def load(self, name: str) -> Path | bytes:
+    def load(self, name: str) -> Path:
         return self._inside(name)
 
     def head(self, name: str, size: int) -> bytes:

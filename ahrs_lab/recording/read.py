@@ -89,14 +89,40 @@ class Recording:
         return (*self.general, *(finding for segment in self.segments for finding in segment.findings))
 
 
-def read_bundle(path: Path) -> Recording:
-    """The recording in a folder (or its ``recording.toml``) or an ``.ahrsrec`` archive.
+class ReadAhead:
+    """Segments of a recording's folder, read with all their checks while the rest is still being made.
+
+    Each counts only while it is what it was: one whose description or file has changed since is read again.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._source = FolderSource(folder)
+        self._read: dict[str, tuple[tuple[object, ...], RecordedSegment]] = {}
+
+    def read(self, segment: Segment, header: RecordingHeader) -> None:
+        """Read a segment that is sealed. Raises OSError."""
+        known = self._identity(segment, header)
+        self._read[segment.file] = known, _read_segment(self._source, segment, header)
+
+    def get(self, segment: Segment, header: RecordingHeader) -> RecordedSegment | None:
+        """What was read of it; None where it has to be read now."""
+        known, recorded = self._read.get(segment.file, ((), None))
+        return recorded if known == self._identity(segment, header) else None
+
+    def _identity(self, segment: Segment, header: RecordingHeader) -> tuple[object, ...]:
+        file = self._source.load(segment.file).stat()
+        return segment, header.device, header.procedure, file.st_size, file.st_mtime_ns
+
+
+def read_bundle(path: Path, ahead: ReadAhead | None = None) -> Recording:
+    """The recording in a folder (or its ``recording.toml``) or an ``.ahrsrec`` archive; ``ahead``: what was
+    read of this folder before.
 
     Raises InputError for what is no recording, MachineError for what the machine does not let us read.
     """
     source = open_source(path)
     try:
-        return _read(source)
+        return _read(source, ahead)
     except OSError as error:
         raise MachineError(
             "{path} cannot be read: {error}", path=path, error=error.strerror or error
@@ -147,7 +173,7 @@ def _check_rows(
         check_table(segment, rows, device.rate_unit, found)
 
 
-def _read(source: BundleSource) -> Recording:
+def _read(source: BundleSource, ahead: ReadAhead | None) -> Recording:
     header, segments = _header(source)
     if not segments:
         raise InputError("{where} lists no segment: nothing was recorded.", where=source.path / HEADER_FILE)
@@ -163,7 +189,7 @@ def _read(source: BundleSource) -> Recording:
         digest = pool.submit(_digest, source.path, [segment.file for segment in segments])
         # An archive's handle is not for two threads.
         each = pool.map if isinstance(source, FolderSource) else map
-        recorded = tuple(each(partial(_read_segment, source, header=header), segments))
+        recorded = tuple(each(partial(_segment, source, ahead, header), segments))
         return Recording(header, recorded, digest.result(), general, source.path)
 
 
@@ -181,6 +207,13 @@ def _header(source: BundleSource) -> tuple[RecordingHeader, tuple[Segment, ...]]
         raise InputError("{folder} is not a recording: there is no recording.toml in it.", folder=source.path)
     data = source.head(HEADER_FILE, MAX_BYTES + 1)
     return parse(data, str(source.path / HEADER_FILE))
+
+
+def _segment(
+    source: BundleSource, ahead: ReadAhead | None, header: RecordingHeader, segment: Segment
+) -> RecordedSegment:
+    found = None if ahead is None else ahead.get(segment, header)
+    return _read_segment(source, segment, header) if found is None else found
 
 
 def _read_segment(source: BundleSource, segment: Segment, header: RecordingHeader) -> RecordedSegment:

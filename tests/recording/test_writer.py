@@ -22,7 +22,7 @@ from ahrs_lab.recording import journal
 from ahrs_lab.recording.archive import pack
 from ahrs_lab.recording.csv_file import read_csv
 from ahrs_lab.recording.orientation import Orientation
-from ahrs_lab.recording.read import read_bundle, read_header
+from ahrs_lab.recording.read import ReadAhead, read_bundle, read_header
 from ahrs_lab.recording.samples import Samples, concatenate
 from ahrs_lab.recording.segment import DeviceDescription, RecordingHeader, Segment, Site
 from ahrs_lab.recording.write import BundleWriter
@@ -422,3 +422,30 @@ def test_a_file_in_the_folders_place_is_named(tmp_path: Path) -> None:
     (tmp_path / "r").write_text("x")
     with pytest.raises(MachineError, match="is a file"):
         BundleWriter(tmp_path / "r", HEADER)
+
+
+def test_what_was_read_ahead_counts_while_it_is_what_it_was(tmp_path: Path) -> None:
+    folder = tmp_path / "r"
+    ahead = ReadAhead(folder)
+    with BundleWriter(folder, HEADER) as writer:
+        for number in range(1, 5):
+            ahead.read(record(writer, segment(f"zo_x_{number}", position=number), block()), HEADER)
+        record(writer, segment("zo_y_1"), block())
+        writer.supersede("zo_x_2", "cable moved")
+    file = folder / "segments" / "zo_x_3.parquet"
+    os.utime(file, ns=(0, 0))
+    header, segments = read_header(folder)
+    found = {entry.name: ahead.get(entry, header) for entry in segments}
+    assert [name for name, recorded in found.items() if recorded] == ["zo_x_1", "zo_x_4"]
+    faster = replace(header, device=replace(header.device, sample_rate_hz=60.0))
+    assert ahead.get(segments[0], faster) is None
+
+    whole, plain = read_bundle(folder, ahead), read_bundle(folder)
+    assert whole.segments[0] is found["zo_x_1"]
+    assert whole.sha256 == plain.sha256
+    assert whole.findings == plain.findings
+    for one, other in zip(whole.segments, plain.segments, strict=True):
+        assert one.segment == other.segment
+        assert one.findings == other.findings
+        for name, column in other.samples.columns.items():
+            np.testing.assert_array_equal(one.samples[name], column)

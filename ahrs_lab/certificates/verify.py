@@ -16,6 +16,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from ahrs_lab.certificates.der import is_distinguished, length_of
 from ahrs_lab.certificates.job_sheet import CertificateLanguage
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
@@ -329,8 +330,6 @@ def _is_canonical(embedded: Any) -> bool:
     The hole of the last signature is covered by none, so a change there is only found by looking at them.
     What the signature's own container repeats without protecting it is compared with what is protected.
     """
-    from asn1crypto.cms import ContentInfo
-
     _, first, second, _ = (int(value) for value in embedded.byte_range)
     stream = embedded.reader.stream
     stream.seek(first)
@@ -339,11 +338,20 @@ def _is_canonical(embedded: Any) -> bool:
     if hole[:1] != b"<" or hole[-1:] != b">" or digits not in (digits.upper(), digits.lower()):
         return False
     container = bytes.fromhex(digits.decode("ascii"))
-    content = ContentInfo.load(container)
-    exact = content.dump(force=True)
-    if container[: len(exact)] != exact or any(container[len(exact) :]):
+    size = length_of(container)
+    if size < 0 or not is_distinguished(container[:size]) or any(container[size:]):
+        return False
+    # Behind its implicit tag this is a set, in order therefore.
+    certificates = [one.dump() for one in embedded.signed_data["certificates"]]
+    if certificates != sorted(certificates):
         return False
     info, certificate = embedded.signer_info, embedded.signer_cert
+    # What no signature protects is written anew: so also its values are the only ones it can mean.
+    whole = embedded.signed_data
+    bare = [whole["version"], whole["digest_algorithms"], whole["encap_content_info"]]
+    bare += [info[name] for name in ("version", "sid", "digest_algorithm", "signature_algorithm")]
+    if any(part.dump() != part.copy().dump(force=True) for part in bare):
+        return False
     algorithms = [one["algorithm"].native for one in embedded.signed_data["digest_algorithms"]]
     beside = {str(one["type"].native) for one in info["unsigned_attrs"]}
     version, outer = str(info["version"].native), str(embedded.signed_data["version"].native)

@@ -268,3 +268,17 @@ def test_a_signers_name_writes_no_lines_of_the_report() -> None:
     shown = verify._signer_name(SimpleNamespace(subject=SimpleNamespace(native=name)))
     assert shown.startswith("X�Intact and unchanged�[2J")
     assert len(shown) == 100
+
+
+def test_what_no_signature_protects_is_compared(tmp_path: Path, signed: bytes, authority: Authority) -> None:
+    """The empty parameters of the digest's name mean nothing: a change there is found all the same."""
+    first, second = (int(v) for v in re.findall(rb"/ByteRange \[0 (\d+) (\d+)", signed)[-1])
+    sha256 = b"0609608648016503040201" + b"0500"
+    hole = signed[first:second]
+    places = [match.end() - 4 for match in re.finditer(sha256, hole)]
+    assert len(places) >= 2
+    for place in places:
+        for instead in (b"08", b"75", b"45", b"25"):
+            changed = signed[: first + place] + instead + signed[first + place + 2 :]
+            report = verify_pdf(put(tmp_path, changed), authority.trust_roots)
+            assert not report.valid, f"byte {place}: {instead!r}"

@@ -103,6 +103,7 @@ class TableBox:
         self._table = table
         self._measured = measured
         self._wrapped: tuple[float, list[list[list[RichText]]]] | None = None
+        self._heading: tuple[float, list[list[RichText]]] | None = None
         self.keep_with_next = table.kept
 
     def _layout(self, width: float) -> _Measured:
@@ -111,8 +112,13 @@ class TableBox:
         return self._measured
 
     def _header(self, width: float) -> list[list[RichText]]:
-        size, widths = self._layout(width)
-        return [_header_lines(c, size - 0.5, w) for c, w in zip(self._table.columns, widths, strict=True)]
+        if self._heading is None or self._heading[0] != width:
+            size, widths = self._layout(width)
+            lines = [
+                _header_lines(c, size - 0.5, w) for c, w in zip(self._table.columns, widths, strict=True)
+            ]
+            self._heading = (width, lines)
+        return self._heading[1]
 
     def _rows(self, width: float) -> list[list[list[RichText]]]:
         if self._wrapped is None or self._wrapped[0] != width:

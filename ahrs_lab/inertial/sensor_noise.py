@@ -10,13 +10,13 @@ they are asked in.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 GRID_S: Final = 1.0
 """Spacing of the slow terms' nodes."""
@@ -30,7 +30,7 @@ _VARIANCE: Final = float(np.log(10.0) / (np.pi * _PROCESSES_PER_DECADE))
 _FLOOR_SQUARED: Final = float(2.0 * np.log(2.0) / np.pi)
 _HIGH_PASS_S: Final = 0.55
 _HIGH_PASS_VARIANCE: Final = 1.07
-"""Of :class:`FastFlicker`, time constant and gain: so the sum with the interpolated grid is flattest."""
+"""Of :class:`FastNoise`, time constant and gain: so the sum with the interpolated grid is flattest."""
 _RUN_IN_S: Final = 8.0
 _CHUNK: Final = 4096
 _ROW: Final = 64
@@ -121,73 +121,81 @@ def _missing_below_grid(decay: Array) -> float:
     return float(shorter - np.sum(sampled))
 
 
-class FastFlicker:
-    """What :class:`SlowDrift` leaves out of a channel's bias instability, sample by sample: processes of 1 s
-    and shorter, two a decade, behind a high pass that takes away what the grid has of them.
+class FastNoise:
+    """Sample noise of one channel: white noise, and what :class:`SlowDrift` leaves out of its bias
+    instability: processes of 1 s and shorter, two a decade, behind a high pass that takes away what the grid
+    has of them.
 
-    Only the processes that the channel's white noise does not cover are made. All are one filter of one white
-    noise, whose spectrum is the sum of theirs. From two samples on, the Allan variance of flicker alone is
-    within 12 % up to a second and within 5 % beyond.
+    Only the processes that the white noise does not cover are made. All are one filter of one white noise,
+    whose spectrum is the sum of theirs. From two samples on, the Allan variance of flicker alone is within
+    12 % up to a second and within 5 % beyond.
     """
 
     def __init__(
         self, coefficients: NoiseCoefficients, interval_s: float, seed: np.random.SeedSequence
     ) -> None:
+        self._rng = np.random.Generator(np.random.SFC64(seed))
+        self._deviation = float(coefficients.white / np.sqrt(interval_s))
+        self._filter: _Recursion | None = None
         flicker, white = _FLOOR_SQUARED * coefficients.bias_instability**2, coefficients.white**2
         constants = 10.0 ** (-np.arange(0, 12) / _PROCESSES_PER_DECADE)
         constants = constants[(flicker * constants > _COVERED * white) & (constants >= 0.05 * interval_s)]
-        self._silent = not len(constants) or interval_s > 0.5 * GRID_S
-        if self._silent:
+        if not len(constants) or interval_s > 0.5 * GRID_S:
             return
-        self._rng = np.random.Generator(np.random.SFC64(seed))
         decay, short = np.exp(-interval_s / constants), constants / interval_s
         means = 2.0 * short * (1.0 - short * (1.0 - decay))  # variance of means over an interval
-        zeros, poles, gain = _sum_of_markov_processes(decay, means)
         high_pass = float(np.exp(-interval_s / _HIGH_PASS_S))
         size = np.sqrt(_VARIANCE * _HIGH_PASS_VARIANCE) * coefficients.bias_instability
-        self._size = float(gain * 0.5 * (1.0 + high_pass) * size)
-        zeros, poles = np.append(zeros, 1.0), np.append(poles, high_pass)
-        self._filter = _Recursion(zeros, poles)
+        variance = (0.5 * (1.0 + high_pass) * size) ** 2 * means
+        zeros, self._deviation = _factored(decay, variance, high_pass, self._deviation**2)
+        self._filter = _Recursion(zeros, np.append(decay, high_pass))
         for _ in range(1 + round(_RUN_IN_S / interval_s) // _CHUNK):
-            self._made = self._next()
+            self._made = self._next(self._filter)
         self._used = 0
 
-    def add_to(self, values: Array) -> None:
-        """Add the next len(values) samples to ``values``."""
-        if self._silent:
-            return
+    def add_to(self, values: Array, scratch: Array) -> None:
+        """Add the next len(values) samples to ``values``; ``scratch`` has the same shape."""
+        if self._filter is not None:
+            self._add_filtered(self._filter, values)
+        elif self._deviation:
+            self._rng.standard_normal(out=scratch)
+            scratch *= self._deviation
+            values += scratch
+
+    def _add_filtered(self, recursion: _Recursion, values: Array) -> None:
         start = 0
         while start < len(values):
             if self._used == _CHUNK:
-                self._made, self._used = self._next(), 0
+                self._made, self._used = self._next(recursion), 0
             taken = min(len(values) - start, _CHUNK - self._used)
             values[start : start + taken] += self._made[self._used : self._used + taken]
             start += taken
             self._used += taken
 
-    def _next(self) -> Array:
+    def _next(self, recursion: _Recursion) -> Array:
         """A chunk; always a whole one, so that its sums do not depend on how many were asked for."""
         made = self._rng.standard_normal(_CHUNK)
-        made *= self._size
-        return self._filter(made)
+        made *= self._deviation
+        return recursion(made)
 
 
 class _Recursion:
-    """The recursive filter Π(1 − zᵢ/z)/Π(1 − pᵢ/z) with more ``poles`` than ``zeros``, all real, the poles
+    """The recursive filter Π(1 − zᵢ/z)/Π(1 − pᵢ/z) with no more ``zeros`` than ``poles``, the poles real and
     distinct, by matrix products.
 
-    It is a sum of first-order recursions, one a pole. What they hold at the end of each row of samples is a
-    sum over the rows before; within a row the filter is its impulse response. Numbers as of a recursion
+    It is a gain and first-order recursions, one a pole. What these hold at the end of each row of samples is
+    a sum over the rows before; within a row the filter is its impulse response. Numbers as of a recursion
     sample by sample, to rounding.
     """
 
-    def __init__(self, zeros: Array, poles: Array) -> None:
+    def __init__(self, zeros: Complex, poles: Array) -> None:
         apart = 1.0 - poles / poles[:, np.newaxis]
         np.fill_diagonal(apart, 1.0)
-        share = np.prod(1.0 - zeros / poles[:, np.newaxis], axis=1) / np.prod(apart, axis=1)
+        share = np.prod(1.0 - zeros / poles[:, np.newaxis], axis=1).real / np.prod(apart, axis=1)
         step, row = np.arange(_ROW), np.arange(_CHUNK // _ROW)
         after = step - step[:, np.newaxis]
         response = share @ poles[:, np.newaxis] ** step
+        response[0] = 1.0
         self._within = np.where(after >= 0, response[after], 0.0)
         self._held = poles[:, np.newaxis] ** step[::-1]
         self._shown = (share * poles)[:, np.newaxis] * poles[:, np.newaxis] ** step
@@ -211,55 +219,53 @@ class _Recursion:
         return made.reshape(-1)
 
 
-def _sum_of_markov_processes(decay: Array, variance: Array) -> tuple[Array, Array, float]:
-    """Zeros, poles and gain of the filter that gives white noise of variance 1 the spectrum of the sum of
-    Gauss–Markov processes of ``variance`` (p,) that decay by ``decay`` (p,), falling, each sample.
+def _factored(decay: Array, variance: Array, high_pass: float, white: float) -> tuple[Complex, float]:
+    """Zeros and gain of the filter, its poles at ``decay`` and ``high_pass``, that gives white noise of
+    variance 1 this spectrum: white noise of variance ``white`` and, behind the high pass (1 − 1/z)/(1 −
+    ``high_pass``/z), the sum of Gauss–Markov processes of ``variance`` (p,) that decay by ``decay`` (p,) each
+    sample.
 
-    With u = 2 − z − 1/z the spectrum is Σ σ²(1 − d²)/((1 − d)² + d·u): a sum of poles on the negative axis,
-    between each two of which there is one zero.
+    In u = |1 − 1/z|² on the unit circle, |1 − d/z|² is (1 − d)² + d·u, so the spectrum is a ratio of
+    polynomials in u; of each two z that a root of u belongs to, the one inside the circle is taken.
     """
-    drive, corner = variance * (1.0 - decay**2), (1.0 - decay) ** 2
-    poles = -corner / decay
-    zeros = []
-    for first, second in pairwise(poles):
-        near, far = first, second
-        for _ in range(60):  # halved on the logarithmic scale: to the last digit
-            middle = -np.sqrt(near * far)
-            if np.sum(drive / (corner + decay * middle)) > 0.0:
-                far = middle
-            else:
-                near = middle
-        half = -0.5 * near
-        zeros.append(1.0 / (1.0 + half + np.sqrt(half * (2.0 + half))))
-    found = np.array(zeros)
-    # at u = 0, frequency zero
-    gain = np.sqrt(np.sum(drive / corner)) * np.prod(1.0 - decay) / np.prod(1.0 - found)
-    return found, decay, float(gain)
+    poles = np.append(decay, high_pass)
+    factors = [np.array([(1.0 - pole) ** 2, pole]) for pole in poles]
+
+    def without(*left_out: int) -> Array:
+        product = np.ones(1)
+        for index, factor in enumerate(factors):
+            if index not in left_out:
+                product = np.convolve(product, factor)
+        return product
+
+    above = white * without()
+    for index, drive in enumerate(variance * (1.0 - decay**2)):
+        above[1:-1] += drive * without(index, len(decay))
+    half = -0.5 * np.roots(above[::-1]).astype(np.complex128)
+    zeros = 1.0 / (1.0 + half + np.sqrt(half * (2.0 + half)))
+    zeros = np.where(np.abs(zeros) > 1.0, 1.0 / zeros, zeros)
+    there = np.exp(-1j * np.pi / 3.0)  # where u = 1
+    shown = np.prod(1.0 - zeros * there) / np.prod(1.0 - poles * there)
+    return zeros, float(np.sqrt(above.sum() / np.sum(without())) / np.abs(shown))
 
 
 class WhiteNoise:
-    """Sample noise of one channel: white rate noise, white noise of the angle (quantisation), and what of the
-    bias instability is faster than the slow grid."""
+    """Noise of one channel from sample to sample: :class:`FastNoise`, and white noise of the angle
+    (quantisation)."""
 
     def __init__(
         self, coefficients: NoiseCoefficients, interval_s: float, seed: np.random.SeedSequence
     ) -> None:
-        white, dither, fast = seed.spawn(3)
-        self._rng = np.random.Generator(np.random.SFC64(white))
+        fast, dither = seed.spawn(2)
+        self._fast = FastNoise(coefficients, interval_s, fast)
         self._dither = np.random.Generator(np.random.SFC64(dither))
-        self._deviation = coefficients.white / np.sqrt(interval_s)
-        self._fast = FastFlicker(coefficients, interval_s, fast)
         # Q is the standard deviation of an angle error spread evenly over one step
         self._step = coefficients.quantisation * np.sqrt(12.0) / interval_s
         self._last = self._dither.random() - 0.5 if self._step else 0.0
 
     def add_to(self, values: Array, scratch: Array) -> None:
         """Add the noise of the next len(values) samples to ``values``; ``scratch`` has the same shape."""
-        if self._deviation:
-            self._rng.standard_normal(out=scratch)
-            np.multiply(scratch, self._deviation, out=scratch)
-            np.add(values, scratch, out=values)
-        self._fast.add_to(values)
+        self._fast.add_to(values, scratch)
         if self._step and len(values):
             self._dither.random(out=scratch)
             scratch -= 0.5

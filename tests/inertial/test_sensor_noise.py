@@ -118,3 +118,34 @@ def test_the_recursion_by_rows_is_scipys_filter(decays: tuple[float, ...]) -> No
     expected = scipy.signal.sosfilt(sections, given.ravel())
     found = np.concatenate([recursion(chunk) for chunk in given])
     assert found == pytest.approx(expected, abs=1e-9 * float(np.std(expected)))
+
+
+@pytest.mark.parametrize("white", [0.0, 1e-4, 0.01])
+@pytest.mark.parametrize("interval_s", [0.1, 0.01, 0.0005])
+def test_one_filter_has_the_spectrum_of_white_noise_and_the_short_processes(
+    white: float, interval_s: float
+) -> None:
+    constants = 10.0 ** (-np.arange(4) / 2.0)
+    decay = np.exp(-interval_s / constants)
+    variance, high_pass = 0.3 * np.arange(1.0, 5.0), float(np.exp(-interval_s / 0.55))
+    zeros, gain = sensor_noise._factored(decay, variance, high_pass, white)
+    assert np.all(np.abs(zeros) <= 1.0)
+    turn = np.exp(-1j * np.geomspace(1e-5, np.pi, 400))
+    markov = variance[:, np.newaxis] * (1.0 - decay[:, np.newaxis] ** 2)
+    sums = np.sum(markov / np.abs(1.0 - decay[:, np.newaxis] * turn) ** 2, axis=0)
+    expected = white + sums * np.abs((1.0 - turn) / (1.0 - high_pass * turn)) ** 2
+    shown = np.prod(1.0 - zeros[:, np.newaxis] * turn, axis=0)
+    shown /= np.prod(1.0 - np.append(decay, high_pass)[:, np.newaxis] * turn, axis=0)
+    # where nothing but the high pass's zero is left, rounding is of the whole
+    np.testing.assert_allclose((gain * np.abs(shown)) ** 2, expected, rtol=1e-7, atol=1e-15)
+
+
+def test_filtered_noise_does_not_depend_on_how_it_is_asked() -> None:
+    coefficients = NoiseCoefficients(white=0.005, bias_instability=0.003)
+    whole = np.zeros(10_000)
+    WhiteNoise(coefficients, 0.01, np.random.SeedSequence(4)).add_to(whole, np.empty(10_000))
+    source = WhiteNoise(coefficients, 0.01, np.random.SeedSequence(4))
+    parts = [np.zeros(count) for count in (1, 0, 4095, 5000, 904)]
+    for part in parts:
+        source.add_to(part, np.empty(len(part)))
+    np.testing.assert_array_equal(np.concatenate(parts), whole)

@@ -150,7 +150,8 @@ class _Stability:
 
     def reached(self, values: Array) -> bool:
         """Whether, with this block, all four results are stable; without a finite u the ends alone."""
-        low, high = symmetric_interval(np.sort(values), self._probability)
+        ends = _symmetric_places(len(values), self._probability)
+        low, high = np.partition(values, ends)[list(ends)]  # what sorting would put there
         self._results.append((float(values.mean()), float(values.std(ddof=1)), low, high))
         count = len(self._results)
         if count < 2:
@@ -176,9 +177,14 @@ def numerical_tolerance(standard: float, digits: int) -> float:
 
 def symmetric_interval(ordered: Array, probability: float = PROBABILITY) -> tuple[float, float]:
     """The probabilistically symmetric coverage interval (7.7.2) of ``ordered`` values, shape (trials,)."""
-    inside = math.floor(probability * len(ordered) + 0.5)
-    first = max(0, (len(ordered) - inside + 1) // 2 - 1)
-    return float(ordered[first]), float(ordered[min(first + inside, len(ordered) - 1)])
+    first, last = _symmetric_places(len(ordered), probability)
+    return float(ordered[first]), float(ordered[last])
+
+
+def _symmetric_places(count: int, probability: float) -> tuple[int, int]:
+    inside = math.floor(probability * count + 0.5)
+    first = max(0, (count - inside + 1) // 2 - 1)
+    return first, min(first + inside, count - 1)
 
 
 def shortest_interval(ordered: Array, probability: float = PROBABILITY) -> tuple[float, float]:

@@ -128,7 +128,8 @@ def compose(header: RecordingHeader, segments: Sequence[Segment]) -> dict[str, A
         if key in _TOP:
             raise ValueError(f"a note may not be called {key!r}: the recording's header has it")
     document.update(_without_none(notes))
-    document["segment"] = [segment_to_table(segment) for segment in segments]
+    if segments:
+        document["segment"] = [segment_to_table(segment) for segment in segments]
     return document
 
 

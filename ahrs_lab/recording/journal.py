@@ -22,7 +22,7 @@ from ahrs_lab.recording.samples import Samples, concatenate
 from ahrs_lab.recording.segment import Segment
 
 SUFFIX = ".journal"
-WRITE_EVERY_S = 0.2
+WRITE_EVERY_S = 0.5
 """Blocks that come faster are written together; so at most this much is not yet on its way to the disk."""
 
 _KEY = b"ahrs-lab-segment"

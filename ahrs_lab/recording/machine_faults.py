@@ -43,7 +43,7 @@ def machine_error(error: OSError, folder: Path) -> MachineError:
     )
 
 
-def write_atomically(path: Path, write: Callable[[BinaryIO], None]) -> None:
+def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
     """The file appears whole or not at all: written beside its place, on the disk, then renamed."""
     beside = path.with_name(path.name + ".part")
     try:

@@ -18,7 +18,7 @@ from typing import Any, Literal, Self
 from ahrs_lab.errors import InputError, InstrumentError, MachineError
 from ahrs_lab.messages import Message
 from ahrs_lab.recording.bundle_source import HEADER_FILE
-from ahrs_lab.recording.bundle_toml import compose, parse
+from ahrs_lab.recording.bundle_toml import compose, parse, segment_to_table
 from ahrs_lab.recording.csv_file import write_csv
 from ahrs_lab.recording.folder_lock import LOCK_FILE, FolderLock
 from ahrs_lab.recording.journal import SUFFIX, Journal, recover
@@ -48,6 +48,8 @@ class BundleWriter:
     _lock: FolderLock
     _header: RecordingHeader
     _segments: list[Segment]
+    _listed: list[tuple[Segment, str]]
+    """Each segment as it stands in ``recording.toml``: it is written as often as there are segments."""
     _journal: Journal | None
 
     def __init__(self, folder: Path, header: RecordingHeader, *, file_format: FileFormat = "parquet") -> None:
@@ -199,7 +201,7 @@ class BundleWriter:
     def _open_folder(self, folder: Path, file_format: FileFormat) -> None:
         self.folder = folder
         self._format = file_format
-        self._segments = []
+        self._segments, self._listed = [], []
         self._journal = None
         with machine_faults(folder):
             folder.mkdir(parents=True, exist_ok=True)
@@ -255,8 +257,14 @@ class BundleWriter:
     def _write_header(self) -> None:
         import tomli_w
 
-        document = compose(self._header, self._segments)
-        write_atomically(self.folder / HEADER_FILE, lambda file: tomli_w.dump(document, file))
+        parts = [tomli_w.dumps(compose(self._header, ()))]
+        for index, segment in enumerate(self._segments):
+            if index == len(self._listed) or self._listed[index][0] is not segment:
+                text = "\n" + tomli_w.dumps({"segment": [segment_to_table(segment)]})
+                self._listed[index : index + 1] = [(segment, text)]
+            parts.append(self._listed[index][1])
+        document = "".join(parts).encode()
+        write_atomically(self.folder / HEADER_FILE, lambda file: file.write(document))
 
     def _recover(self) -> None:
         """Seal what journals hold; take away what a kill left half written."""

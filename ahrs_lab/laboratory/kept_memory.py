@@ -1,8 +1,10 @@
-"""For a process that makes one calculation and ends: memory once taken is kept for the next array."""
+"""For a process that makes one calculation and ends: memory once taken is kept, and seldom looked through."""
 
 from __future__ import annotations
 
 import ctypes
+import gc
+import os
 import sys
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
@@ -10,9 +12,11 @@ _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
 
 
 def keep_memory() -> None:
-    """Let the C library neither give freed memory back nor ask for each large array anew: where a fresh page
-    is slow to get, as on a virtual machine, that is a tenth of a whole calibration. Does nothing where the
-    library is another."""
+    """Let the C library neither give freed memory back nor ask for each large array anew, and Arrow, where it
+    is not loaded yet, take its memory from there too: a fresh page is slow to get, most of all on a virtual
+    machine. Cycles of Python's objects are few and may wait. Of a whole calibration a fifth."""
+    gc.set_threshold(100_000, 20, 20)
+    os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None) if sys.platform == "linux" else None
     if mallopt is not None:
         mallopt(_TRIM_THRESHOLD, 2**30)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from ahrs_lab.certificates.fonts import register_fonts
+from ahrs_lab.messages import Message
 
 
 def load_layout() -> None:
-    """What laying a document out takes."""
+    """What laying a document out takes, with the Chinese texts."""
     import pikepdf  # noqa: F401
     import reportlab.pdfgen.canvas  # noqa: F401
 
     register_fonts()
+    Message("operator").text("zh")
 
 
 def load_signing() -> None:

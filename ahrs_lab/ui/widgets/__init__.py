@@ -13,7 +13,7 @@ from ahrs_lab.ui.widgets.buttons import (
 from ahrs_lab.ui.widgets.card import Card, Panel
 from ahrs_lab.ui.widgets.empty_state import EmptyState
 from ahrs_lab.ui.widgets.key_value_table import KeyValueTable
-from ahrs_lab.ui.widgets.labels import ElidedLabel, Label, Line, LineSwatch, LoweredLabel, Swatch
+from ahrs_lab.ui.widgets.labels import ElidedLabel, Label, Line, LineSwatch, MarkedLabel, Swatch
 from ahrs_lab.ui.widgets.progress import ProgressBar
 from ahrs_lab.ui.widgets.segmented_switch import SegmentedSwitch
 from ahrs_lab.ui.widgets.state_dot import State, StateDot, StateIcon
@@ -32,7 +32,7 @@ __all__ = [
     "Line",
     "LineSwatch",
     "LinkButton",
-    "LoweredLabel",
+    "MarkedLabel",
     "Panel",
     "PrimaryButton",
     "ProgressBar",

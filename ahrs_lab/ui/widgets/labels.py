@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import re
+from math import ceil
 from typing import Literal
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QWidget
 
 from ahrs_lab.recording.orientation import Axis
 from ahrs_lab.ui.theme import AXIS_COLOURS, AXIS_PENS, FontRole, font
+from ahrs_lab.ui.widgets import rich_text
 from ahrs_lab.ui.widgets.buttons import repolish
-
-_LOWERED_MARK = re.compile(r"_\{(.*?)\}")
 
 Tone = Literal["text", "muted", "faint", "accent", "good", "warn", "bad", "axis_x", "axis_y", "axis_z"]
 
@@ -29,6 +28,12 @@ class Label(QLabel):
         self.setFont(font(role))
         self.setProperty("tone", tone)
         self.setWordWrap(wrap)
+
+    def set_sentence(self, text: str) -> None:
+        """A text whose parts in ``^{…}`` and ``_{…}`` are raised and lowered."""
+        marked = rich_text.is_marked(text)
+        self.setTextFormat(Qt.TextFormat.RichText if marked else Qt.TextFormat.PlainText)
+        self.setText(rich_text.as_html(text) if marked else text)
 
     def set_tone(self, tone: Tone) -> None:
         """Another tone from now on."""
@@ -63,50 +68,41 @@ class ElidedLabel(Label):
         painter.drawText(self.contentsRect(), int(self.alignment() | Qt.AlignmentFlag.AlignVCenter), shown)
 
 
-class LoweredLabel(ElidedLabel):
-    """An :class:`ElidedLabel` as wide as its text; what stands in ``_{…}`` is drawn small and lowered."""
+class MarkedLabel(ElidedLabel):
+    """An :class:`ElidedLabel` as wide as its text; what stands in ``_{…}`` is drawn small and lowered, in
+    ``^{…}`` raised."""
 
     def __init__(self, *, role: FontRole = "text", tone: Tone = "text") -> None:
         super().__init__(role=role, tone=tone)
-        self._parts: list[str] = []
+        self._marked = ""
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def set_marked(self, text: str) -> None:
         """The text with its marks; :meth:`text` has none."""
-        self._parts = _LOWERED_MARK.split(text)
-        self.setText("".join(self._parts))
+        self._marked = text
+        self.setText(rich_text.plain(text))
         self.updateGeometry()
         self.update()
 
-    def _small(self) -> QFont:
-        small = QFont(self.font())
-        small.setPixelSize(round(0.75 * small.pixelSize()))
-        return small
-
     def sizeHint(self) -> QSize:
-        plain, small = self.fontMetrics(), QFontMetrics(self._small())
-        width = sum(
-            (small if place % 2 else plain).horizontalAdvance(part) for place, part in enumerate(self._parts)
-        )
-        return QSize(width + 2, super().sizeHint().height())
+        return QSize(ceil(rich_text.width(self._marked, self.font())) + 2, super().sizeHint().height())
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         room = self.contentsRect()
         self.setToolTip(self.text() if self.sizeHint().width() > room.width() + 2 else "")
         painter = QPainter(self)
         painter.setPen(self.palette().color(self.foregroundRole()))
-        for place, part in enumerate(self._parts):
-            lowered = place % 2 == 1
-            painter.setFont(self._small() if lowered else self.font())
+        for run in rich_text.parts(self._marked):
+            painter.setFont(rich_text.run_font(self.font(), run.shift))
             metrics = painter.fontMetrics()
-            shown = metrics.elidedText(part, self._mode, max(0, room.width()))
+            shown = metrics.elidedText(run.text, self._mode, max(0, room.width()))
             painter.drawText(
-                room.translated(0, 4 if lowered else 0),
+                room.translated(0, round(rich_text.RAISE[run.shift] * self.font().pixelSize())),
                 int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter),
                 shown,
             )
             room.setLeft(room.left() + metrics.horizontalAdvance(shown))
-            if shown != part:
+            if shown != run.text:
                 break
 
 

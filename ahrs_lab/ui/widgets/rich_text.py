@@ -3,6 +3,7 @@ paints itself. The fonts lack most Unicode superscripts."""
 
 from __future__ import annotations
 
+import html
 import re
 from functools import lru_cache
 
@@ -13,7 +14,8 @@ from ahrs_lab.certificates.richtext import RichText, markup
 
 _MARKS = re.compile(r"[_^]\{(.*?)\}")
 _SMALL = 0.76
-_RAISE = {"": 0.0, "sup": -0.3, "sub": 0.16}
+RAISE = {"": 0.0, "sup": -0.3, "sub": 0.16}
+"""Of a run's baseline, downwards, in heights of the type."""
 
 
 @lru_cache(maxsize=4096)
@@ -27,7 +29,19 @@ def plain(text: str) -> str:
     return _MARKS.sub(r"\1", text)
 
 
-def _font(base: QFont, shift: str) -> QFont:
+def is_marked(text: str) -> bool:
+    """Something in it is raised or lowered."""
+    return _MARKS.search(text) is not None
+
+
+def as_html(text: str) -> str:
+    """For a widget that breaks lines itself."""
+    tags = {"": "{}", "sup": "<sup>{}</sup>", "sub": "<sub>{}</sub>"}
+    return "".join(tags[run.shift].format(html.escape(run.text)) for run in parts(text)).replace("\n", "<br>")
+
+
+def run_font(base: QFont, shift: str) -> QFont:
+    """Of a run beside text in ``base``."""
     if not shift:
         return base
     small = QFont(base)
@@ -37,7 +51,7 @@ def _font(base: QFont, shift: str) -> QFont:
 
 def width(text: str, base: QFont) -> float:
     """Pixels."""
-    return sum(QFontMetricsF(_font(base, run.shift)).horizontalAdvance(run.text) for run in parts(text))
+    return sum(QFontMetricsF(run_font(base, run.shift)).horizontalAdvance(run.text) for run in parts(text))
 
 
 def draw(painter: QPainter, area: QRectF, align: Qt.AlignmentFlag, text: str, base: QFont) -> None:
@@ -53,7 +67,7 @@ def draw(painter: QPainter, area: QRectF, align: Qt.AlignmentFlag, text: str, ba
     if align & Qt.AlignmentFlag.AlignTop:
         baseline = area.top() + metrics.ascent()
     for run in parts(text):
-        font = _font(base, run.shift)
+        font = run_font(base, run.shift)
         painter.setFont(font)
-        painter.drawText(QPointF(x, baseline + _RAISE[run.shift] * base.pixelSize()), run.text)
+        painter.drawText(QPointF(x, baseline + RAISE[run.shift] * base.pixelSize()), run.text)
         x += QFontMetricsF(font).horizontalAdvance(run.text)

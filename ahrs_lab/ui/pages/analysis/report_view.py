@@ -5,14 +5,12 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, Qt
-from PySide6.QtGui import QColor, QGuiApplication, QPainter, QResizeEvent
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QScrollArea,
     QSplitter,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
     QVBoxLayout,
     QWidget,
 )
@@ -25,7 +23,7 @@ from ahrs_lab.ui.pages.widgets.form import ChoiceField
 from ahrs_lab.ui.pages.widgets.icon_line import IconLine
 from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
 from ahrs_lab.ui.pages.widgets.tabs import Tabs
-from ahrs_lab.ui.theme import CARD_MARGIN, GAP, STEP, font
+from ahrs_lab.ui.theme import CARD_MARGIN, GAP, STEP
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import ElidedLabel, IconButton, Label, rich_text
 
@@ -33,31 +31,11 @@ if TYPE_CHECKING:
     from ahrs_lab.ui.pages.analysis.chart_view import ChartView
 
 _SHARES = (3, 2)
-_CELL_PX = 11
 _HEADING_PX = 84
 _COPY_PX = 20
 _COMMA = re.compile("，(?=.{3})")
 """Where a Chinese heading may be broken: not before a unit of one sign."""
 _LEAST_PX, _NO_LIMIT_PX = 90, 16_777_215
-
-
-class _RichCells(QStyledItemDelegate):
-    """Powers of ten raised, indices lowered."""
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
-    ) -> None:
-        text = str(index.data(Qt.ItemDataRole.DisplayRole))
-        if "{" not in text:
-            super().paint(painter, option, index)
-            return
-        painter.save()
-        colour = index.data(Qt.ItemDataRole.ForegroundRole)
-        painter.setPen(colour if isinstance(colour, QColor) else option.palette.text().color())
-        align = Qt.AlignmentFlag(index.data(Qt.ItemDataRole.TextAlignmentRole))
-        area = QRectF(option.rect).adjusted(_CELL_PX, 0, -_CELL_PX, 0)
-        rich_text.draw(painter, area, align, text, font())
-        painter.restore()
 
 
 class ReportTable(QWidget):
@@ -79,7 +57,6 @@ class ReportTable(QWidget):
         head.addWidget(self.title, 1)
         head.addWidget(self.copy, 0, Qt.AlignmentFlag.AlignTop)
         self.table = TextTable(selectable=False, compact=True)
-        self.table.setItemDelegate(_RichCells(self.table))
         self.table.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         numbers = number_columns(table)
         self.table.set_content(

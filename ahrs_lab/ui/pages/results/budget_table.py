@@ -18,6 +18,7 @@ from ahrs_lab.metrology.uncertainty.budget import shares
 from ahrs_lab.ui.formatting import number
 from ahrs_lab.ui.pages.results.quantities import Unit
 from ahrs_lab.ui.pages.results.what_if_model import degrees_of_freedom, significant
+from ahrs_lab.ui.pages.widgets.rich_cells import RichCells
 from ahrs_lab.ui.pages.widgets.table import Cell, Column, TextTable
 from ahrs_lab.ui.theme import tokens
 from ahrs_lab.ui.translation import said
@@ -95,7 +96,7 @@ def _uncertainty(row: BudgetRow, before: BudgetRow) -> Cell:
     return Cell(f"{significant(before.standard_uncertainty)} → {text}", "accent", strong=True, edit=edit)
 
 
-class _NumberDelegate(QStyledItemDelegate):
+class _NumberDelegate(RichCells):
     """A flat field that is wide enough for a number, whatever stood there."""
 
     def createEditor(

@@ -17,7 +17,7 @@ from ahrs_lab.ui.pages.results.what_if_model import WhatIfModel, degrees_of_free
 from ahrs_lab.ui.pages.results.what_if_strip import WhatIfStrip
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.translation import said
-from ahrs_lab.ui.widgets import Line, LoweredLabel, QuietButton
+from ahrs_lab.ui.widgets import Line, MarkedLabel, QuietButton
 
 _CHECK_PX = 288
 
@@ -54,7 +54,7 @@ class BudgetView(Translated):
         column.setSpacing(GAP)
         head = QHBoxLayout()
         head.setSpacing(0)
-        self._sum = LoweredLabel(role="strong")
+        self._sum = MarkedLabel(role="strong")
         self.ask_button = QuietButton(icon="edit")
         self.ask_button.clicked.connect(self._ask)
         self.save_button = QuietButton(icon="export")

@@ -24,7 +24,7 @@ from ahrs_lab.ui.pages.results.quantities import Quantity, Unit, show
 from ahrs_lab.ui.pages.widgets.share_bars import ShareBars
 from ahrs_lab.ui.theme import CARD_MARGIN, GAP
 from ahrs_lab.ui.translation import language, said
-from ahrs_lab.ui.widgets import ElidedLabel, IconButton, Label, Line, LoweredLabel, SegmentedSwitch, Swatch
+from ahrs_lab.ui.widgets import ElidedLabel, IconButton, Label, Line, MarkedLabel, SegmentedSwitch, Swatch
 
 if TYPE_CHECKING:
     from ahrs_lab.ui.pages.widgets.plot import Plot
@@ -64,8 +64,8 @@ class PlotView(Translated):
         self._plot_column.setSpacing(2)
         head = QHBoxLayout()
         head.setSpacing(CARD_MARGIN)
-        self._title = LoweredLabel(role="strong")
-        self._facts = LoweredLabel(tone="muted")
+        self._title = MarkedLabel(role="strong")
+        self._facts = MarkedLabel(tone="muted")
         self.what = SegmentedSwitch([("residuals", ""), ("fit", "")], "residuals")
         self.what.changed.connect(lambda _key: self._draw())
         head.addWidget(self._title)
@@ -100,7 +100,7 @@ class PlotView(Translated):
         column = QVBoxLayout(whole)
         column.setContentsMargins(0, 4, 0, 0)
         column.setSpacing(GAP)
-        self._budget_title = LoweredLabel(role="strong")
+        self._budget_title = MarkedLabel(role="strong")
         self._budget_facts = ElidedLabel(tone="muted")
         self._shares = ShareBars()
         column.addWidget(self._budget_title)

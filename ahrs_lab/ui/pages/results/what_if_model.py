@@ -83,7 +83,8 @@ def _number(text: str) -> float:
 
 
 def significant(value: float, digits: int = 3) -> str:
-    """So many significant digits; with a power of ten where there are too many zeros."""
+    """So many significant digits; with a power of ten, its exponent in ``^{…}``, where there are too many
+    zeros."""
     if value == 0.0:
         return "0"
     if not math.isfinite(value):
@@ -92,7 +93,7 @@ def significant(value: float, digits: int = 3) -> str:
     if -4 <= power < 6:
         return number(value, max(0, digits - 1 - power))
     mantissa = number(value / 10.0**power, digits - 1)
-    return f"{mantissa}×10^{MINUS if power < 0 else ''}{abs(power)}"
+    return f"{mantissa}×10^{{{MINUS if power < 0 else ''}{abs(power)}}}"
 
 
 def degrees_of_freedom(dof: float) -> str:

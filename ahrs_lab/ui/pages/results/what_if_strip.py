@@ -66,7 +66,7 @@ class WhatIfStrip(QFrame):
         self._kind = kind
         self.setProperty("panel", kind)
         repolish(self)
-        self._text.setText(text)
+        self._text.set_sentence(text)
         self.reset_button.setText(self.tr("Reset"))
         self._draw_icon()
         self.setVisible(True)

@@ -22,7 +22,8 @@ class IconLine(QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(GAP)
         self._icon = QLabel()
-        self._text = Label(text, wrap=True)
+        self._text = Label(wrap=True)
+        self._text.set_sentence(text)
         row.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         row.addWidget(self._text, 1)
         self._draw()
@@ -30,7 +31,7 @@ class IconLine(QWidget):
     def set_content(self, state: str, text: str) -> None:
         """Another state and sentence."""
         self._state = state
-        self._text.setText(text)
+        self._text.set_sentence(text)
         self._draw()
 
     def text(self) -> str:

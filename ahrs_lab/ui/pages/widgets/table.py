@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import ceil
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetrics, QKeyEvent, QResizeEvent
+from PySide6.QtGui import QColor, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
 
+from ahrs_lab.ui.pages.widgets.rich_cells import RichCells
 from ahrs_lab.ui.theme import font, tokens
+from ahrs_lab.ui.widgets import rich_text
 
 _Index = QModelIndex | QPersistentModelIndex
 _ROW_PX = 32
@@ -21,8 +24,9 @@ _CELL_PX = 24
 
 @dataclass(frozen=True)
 class Cell:
-    """A text with its tone (a colour name of the theme) and weight; ``sort`` orders better than the text and
-    is what a delegate draws; ``edit`` is what an editor begins with, None: it cannot be edited."""
+    """A text, ``^{…}`` in it raised and ``_{…}`` lowered, with its tone (a colour name of the theme) and
+    weight; ``sort`` orders better than the text and is what a delegate draws; ``edit`` is what an editor
+    begins with, None: it cannot be edited."""
 
     text: str
     tone: str = "text"
@@ -59,8 +63,10 @@ class _Model(QAbstractTableModel):
 
     def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
         cell = self.rows[index.row()][index.column()]
-        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole):
+        if role == Qt.ItemDataRole.DisplayRole:
             return cell.text
+        if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleTextRole):
+            return rich_text.plain(cell.text)
         if role == Qt.ItemDataRole.EditRole:
             return cell.edit
         if role == Qt.ItemDataRole.UserRole:
@@ -145,6 +151,7 @@ class TextTable(QTableView):
         self._selectable = selectable
         self._sortable = sortable
         self.setModel(self._model)
+        self.setItemDelegate(RichCells(self))
         self.setShowGrid(False)
         self.setWordWrap(two_lines)
         self._two_lines = two_lines
@@ -226,7 +233,7 @@ class TextTable(QTableView):
 
     def _measure(self) -> None:
         header = self.horizontalHeader()
-        plain, strong = self.fontMetrics(), QFontMetrics(font("strong"))
+        plain = self.fontMetrics()
         for number, column in enumerate(self._model.columns):
             if column.stretch:
                 header.setSectionResizeMode(number, QHeaderView.ResizeMode.Stretch)
@@ -234,7 +241,7 @@ class TextTable(QTableView):
             widths = [plain.horizontalAdvance(line) for line in column.heading.split("\n")]
             for row in self._model.rows:
                 cell = row[number]
-                widths.append((strong if cell.strong else plain).horizontalAdvance(cell.text))
+                widths.append(ceil(rich_text.width(cell.text, font("strong" if cell.strong else "text"))))
             header.setSectionResizeMode(number, QHeaderView.ResizeMode.Interactive)
             width = max(widths) + _PADDING_PX + (12 if self._sortable else 0)
             self.setColumnWidth(number, max(width, column.least))

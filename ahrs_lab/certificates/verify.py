@@ -299,6 +299,8 @@ def _judged(embedded: Any, status: Any, signer: str, field: str, *, last: bool) 
 
     whole = status.coverage == SignatureCoverageLevel.ENTIRE_FILE
     modification = _modification(status, whole=whole, last=last)
+    if modification == "allowed" and last and not _says_the_same(embedded):
+        modification = "forbidden"
     intact = bool(status.intact and status.valid and (not last or _is_canonical(embedded)))
     problems: list[Message] = []
     if not status.intact:
@@ -397,6 +399,50 @@ def _modification(status: Any, *, whole: bool, last: bool) -> Modification:
     if not permitted or (last and level != ModificationLevel.LTA_UPDATES):
         return "forbidden"
     return "allowed"
+
+
+def _says_the_same(embedded: Any) -> bool:
+    """Title, author and the like are as when they were signed: the rules let them be written anew, because
+    who adds validation data writes date and producer."""
+    reader = embedded.reader
+    signed = reader.get_historical_resolver(embedded.signed_revision)
+    return described(signed) == described(reader)
+
+
+def described(revision: Any) -> tuple[dict[str, str], list[tuple[str, ...]]]:
+    """What a document says of itself in one revision, in its information dictionary and its metadata, but for
+    when and with what it was written."""
+
+    def part(of: Any, key: str) -> Any:
+        # not by of[key], which would take a later revision's
+        value = of.raw_get(key) if key in of else None
+        reference = getattr(value, "reference", None)
+        return value if reference is None else revision.get_object(reference)
+
+    info = part(revision.trailer_view, "/Info") or {}
+    entries = {key: str(part(info, key)) for key in info if key not in ("/ModDate", "/Producer")}
+    metadata = part(part(revision.trailer_view, "/Root"), "/Metadata")
+    return entries, [] if metadata is None else statements(metadata.data)
+
+
+def statements(metadata: bytes) -> list[tuple[str, ...]]:
+    """The elements of XMP metadata in their order: name, attributes, text."""
+    from lxml import etree
+
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
+    found = []
+    for element in etree.fromstring(metadata, parser).iter(etree.Element):
+        if element.tag not in _OF_THE_WRITING:
+            attributes = sorted(entry for entry in element.items() if entry[0] not in _OF_THE_WRITING)
+            texts = (element.text or "").strip(), (element.tail or "").strip()
+            found.append((str(element.tag), *(str(part) for entry in attributes for part in entry), *texts))
+    return found
+
+
+_OF_THE_WRITING = frozenset(
+    [f"{{http://ns.adobe.com/xap/1.0/}}{name}" for name in ("ModifyDate", "MetadataDate")]
+    + ["{http://ns.adobe.com/pdf/1.3/}Producer", "{adobe:ns:meta/}xmptk"]
+)
 
 
 # ── the whole file ───────────────────────────────────────────────────────────────────────────────────────

@@ -6,6 +6,7 @@ import io
 import json
 import random
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pyhanko.pdf_utils import generic as untyped_generic
 from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+from pyhanko.sign.validation import DocumentSecurityStore
 
 from ahrs_lab.certificates import verify
 from ahrs_lab.certificates.authority import Authority
@@ -158,6 +160,54 @@ def test_an_empty_update_after_the_last_signature_is_found(
     out = io.BytesIO()
     writer.write(out)
     assert not verify_pdf(put(tmp_path, out.getvalue()), authority.trust_roots).valid
+
+
+def updated(signed: bytes, change: Callable[[Any], None]) -> bytes:
+    """An incremental update with everything in order."""
+    writer: Any = IncrementalPdfFileWriter(io.BytesIO(signed))
+    change(writer)
+    out = io.BytesIO()
+    writer.write(out)
+    return out.getvalue()
+
+
+def another_title(writer: Any) -> None:
+    title = generic.pdf_string("Another certificate")
+    writer.set_info(writer.add_object(generic.DictionaryObject({generic.pdf_name("/Title"): title})))
+
+
+def another_metadata(writer: Any) -> None:
+    writer._update_meta = lambda: None  # else pyHanko writes what it thinks right
+    said = writer.root["/Metadata"].data
+    changed = said.replace(b"rdf:li>", b"rdf:li>Another ", 1)
+    assert changed != said
+    stream = generic.StreamObject({}, stream_data=changed)
+    stream.update({generic.pdf_name("/Type"): generic.pdf_name("/Metadata"),
+                   generic.pdf_name("/Subtype"): generic.pdf_name("/XML")})  # fmt: skip
+    writer.root[generic.pdf_name("/Metadata")] = writer.add_object(stream)
+    writer.update_root()
+
+
+@pytest.mark.parametrize("change", [another_title, another_metadata])
+def test_a_title_or_metadata_changed_after_the_last_signature_is_found(
+    tmp_path: Path, signed: bytes, authority: Authority, change: Callable[[Any], None]
+) -> None:
+    data = updated(signed, change)
+    assert data.startswith(signed)
+    report = verify_pdf(put(tmp_path, data), authority.trust_roots)
+    assert not report.valid
+    assert report.changed_since is not None
+
+
+def test_validation_data_after_the_last_signature_change_nothing(
+    tmp_path: Path, signed: bytes, authority: Authority
+) -> None:
+    out = io.BytesIO(signed)
+    stranger = Authority(tmp_path / "stranger")
+    stranger.create()
+    DocumentSecurityStore.add_dss(out, None, certs=verify._certificates(stranger.trust_roots))
+    assert len(out.getvalue()) > len(signed)
+    assert verify_pdf(put(tmp_path, out.getvalue()), authority.trust_roots).valid
 
 
 def test_going_back_to_an_earlier_signature_shows_who_is_missing(

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 
 _DEEPEST = 64
-_SEQUENCE, _SET = 0x30, 0x31
+SEQUENCE, SET = 0x30, 0x31
 
 
 class _NotCanonicalError(Exception):
@@ -29,6 +29,14 @@ def length_of(data: bytes) -> int:
         return _extent(data, 0, len(data))[1]
     except (_NotCanonicalError, IndexError):
         return -1
+
+
+def value(tag: int, *contents: bytes) -> bytes:
+    """A value of its contents."""
+    whole = b"".join(contents)
+    length = len(whole)
+    octets = b"" if length < 0x80 else length.to_bytes((length.bit_length() + 7) // 8, "big")
+    return bytes([tag, 0x80 | len(octets) if octets else length]) + octets + whole
 
 
 def _extent(data: bytes, at: int, stop: int) -> tuple[int, int]:
@@ -57,14 +65,14 @@ def _end(data: bytes, at: int, stop: int, depth: int) -> int:
         if universal and not _PRIMITIVE.get(tag, _anything)(data[start:end]):
             raise _NotCanonicalError
         return end
-    if universal and tag not in (_SEQUENCE, _SET):
+    if universal and tag not in (SEQUENCE, SET):
         raise _NotCanonicalError
     parts = []
     while start < end:
         after = _end(data, start, end, depth + 1)
         parts.append(data[start:after])
         start = after
-    if tag == _SET and parts != sorted(parts):
+    if tag == SET and parts != sorted(parts):
         raise _NotCanonicalError
     return end
 

@@ -16,7 +16,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from ahrs_lab.certificates.der import is_distinguished, length_of
+from ahrs_lab.certificates.der import SEQUENCE, SET, is_distinguished, length_of, value
 from ahrs_lab.certificates.job_sheet import CertificateLanguage
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
@@ -29,6 +29,7 @@ Modification = Literal["none", "allowed", "forbidden"]
 
 _LARGEST_FILE = 100_000_000
 _MOST_SIGNATURES = 50
+_EXPLICIT = 0xA0
 _LONGEST_NAME = 100
 
 
@@ -341,15 +342,16 @@ def _is_canonical(embedded: Any) -> bool:
         return False
     container = bytes.fromhex(digits.decode("ascii"))
     size = length_of(container)
-    if size < 0 or not is_distinguished(container[:size]) or any(container[size:]):
+    info, certificate, whole = embedded.signer_info, embedded.signer_cert, embedded.signed_data
+    exact = _container(container, whole, info)
+    if container[:size] != exact or not is_distinguished(exact) or any(container[size:]):
         return False
     # Behind its implicit tag this is a set, in order therefore.
-    certificates = [one.dump() for one in embedded.signed_data["certificates"]]
-    if certificates != sorted(certificates):
+    certificates = [one.dump() for one in whole["certificates"]]
+    plain = all(one.name == "certificate" for one in whole["certificates"])
+    if certificates != sorted(set(certificates)) or not plain:
         return False
-    info, certificate = embedded.signer_info, embedded.signer_cert
     # What no signature protects is written anew: so also its values are the only ones it can mean.
-    whole = embedded.signed_data
     bare = [whole["version"], whole["digest_algorithms"], whole["encap_content_info"]]
     bare += [info[name] for name in ("version", "sid", "digest_algorithm", "signature_algorithm")]
     if any(part.dump() != part.copy().dump(force=True) for part in bare):
@@ -364,6 +366,21 @@ def _is_canonical(embedded: Any) -> bool:
         and beside <= {"signature_time_stamp_token"}
         and _names_signer(info["sid"], certificate, version)
     )
+
+
+def _container(container: bytes, whole: Any, info: Any) -> bytes:
+    """The signature's container of the parts that are looked at and nothing beside them: parsers pass over
+    what is too much."""
+    from asn1crypto.cms import ContentInfo
+
+    of_signer = ("version", "sid", "digest_algorithm", "signed_attrs", "signature_algorithm", "signature")
+    signer = [info[name].dump() for name in of_signer]
+    if len(info["unsigned_attrs"]):
+        signer.append(info["unsigned_attrs"].dump())
+    of_signed = ("version", "digest_algorithms", "encap_content_info", "certificates")
+    signed = [*(whole[name].dump() for name in of_signed), value(SET, value(SEQUENCE, *signer))]
+    kind = ContentInfo.load(container)["content_type"].dump()
+    return value(SEQUENCE, kind, value(_EXPLICIT, value(SEQUENCE, *signed)))
 
 
 def _names_signer(identifier: Any, certificate: Any, version: str) -> bool:

@@ -73,7 +73,12 @@ def _demo(arguments: argparse.Namespace) -> int:
     plan = load_plan(arguments.plan) if arguments.plan else None
     with stop_signals(), ProgressLine(sys.stderr) as progress:
         outcome = run_demonstration(
-            arguments.out, plan=plan, speed=arguments.speed, on_event=progress.event, on_stage=progress.stage
+            arguments.out,
+            plan=plan,
+            speed=arguments.speed,
+            on_event=progress.event,
+            on_stage=progress.stage,
+            beside=True,
         )
     files = {name: str(path) for name, path in outcome.files.items()}
     data = {**to_json(outcome.result), "files": files}
@@ -103,6 +108,7 @@ def _run(arguments: argparse.Namespace) -> int:
                 capability=job.capability if job else None,
                 again_from=arguments.again_from,
                 reason=arguments.reason,
+                beside=True,
             )
     finally:
         bench.close()

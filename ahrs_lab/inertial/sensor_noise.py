@@ -10,6 +10,7 @@ they are asked in.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 from typing import Final
 
 import numpy as np
@@ -36,6 +37,8 @@ _CHUNK: Final = 4096
 _ROW: Final = 64
 _COVERED: Final = 0.002
 """Flicker below this share of the white noise's Allan variance is not seen in it."""
+_UNSEEN: Final = 1e-12
+"""White noise below this share of the flicker's variance is left out: its zeros could not be told."""
 
 
 @dataclass(frozen=True)
@@ -147,9 +150,10 @@ class FastNoise:
         high_pass = float(np.exp(-interval_s / _HIGH_PASS_S))
         size = np.sqrt(_VARIANCE * _HIGH_PASS_VARIANCE) * coefficients.bias_instability
         variance = (0.5 * (1.0 + high_pass) * size) ** 2 * means
-        zeros, self._deviation = _factored(decay, variance, high_pass, self._deviation**2)
+        below = self._deviation**2 < _UNSEEN * variance.sum()
+        zeros, self._deviation = _factored(decay, variance, high_pass, 0.0 if below else self._deviation**2)
         self._filter = _Recursion(zeros, np.append(decay, high_pass))
-        for _ in range(1 + round(_RUN_IN_S / interval_s) // _CHUNK):
+        for _ in range(1 + ceil(_RUN_IN_S / interval_s / _CHUNK)):
             self._made = self._next(self._filter)
         self._used = 0
 

@@ -234,6 +234,7 @@ def run_demonstration(
     speed: float | None,
     on_event: Callable[[Event], None],
     on_stage: Callable[[str], None],
+    beside: bool = False,
 ) -> DemonstrationOutcome:
     """A whole job without a screen into ``out``: measured, evaluated, certified by three signatures,
     verified.
@@ -260,10 +261,10 @@ def run_demonstration(
         run = laboratory.start_run(
             number, actor, on_event=on_event, on_samples=lambda _samples: None, speed=speed, ask=False
         )
-        with EvaluationBeside(run, meanwhile=_load_libraries) as beside:
+        with EvaluationBeside(run, _load_libraries, allowed=beside) as evaluation:
             _measure(laboratory, number, actor, run)
             on_stage("evaluating")
-            result = laboratory.finish_run(number, actor, beside.evaluate)
+            result = laboratory.finish_run(number, actor, evaluation.evaluate)
         files = {"recording": laboratory.bundle(number), **write_files(result, out, record=False)}
         files["original_record"] = laboratory.original_record(number)
         on_stage("certificate and signatures")

@@ -38,11 +38,14 @@ LEAST_SAMPLES = 500_000
 class EvaluationBeside:
     """``with EvaluationBeside(run) as beside:`` before the run starts; after its end :meth:`evaluate`.
 
-    ``meanwhile`` is done here while the second process reduces.
+    ``meanwhile`` is done here while the second process reduces. With ``allowed`` False there is none: it
+    loads the main module once more, which has to be one that does nothing then.
     """
 
-    def __init__(self, run: LiveRun, meanwhile: Callable[[], None] = lambda: None) -> None:
-        self._worker = _Worker(run.folder, run.header) if _worth_it(run) else None
+    def __init__(
+        self, run: LiveRun, meanwhile: Callable[[], None] = lambda: None, *, allowed: bool = True
+    ) -> None:
+        self._worker = _started(run) if allowed and _worth_it(run) else None
         self._meanwhile = meanwhile
         if self._worker is not None:
             run.listen(self._hear)
@@ -72,6 +75,13 @@ class EvaluationBeside:
         return evaluate_bundle(bundle, settings, capability) if result is None else result
 
 
+def _started(run: LiveRun) -> _Worker | None:
+    try:
+        return _Worker(run.folder, run.header)
+    except (OSError, RuntimeError, MemoryError):  # no more processes, threads, memory
+        return None
+
+
 def _worth_it(run: LiveRun) -> bool:
     planned = sum(step.estimate_s for step in run.steps) * run.header.device.sample_rate_hz
     return run.bench.clock.step_s is None and planned >= LEAST_SAMPLES
@@ -89,7 +99,12 @@ class _Worker:
         far.close()
         self._given: SimpleQueue[Any] = SimpleQueue()
         self._sender = threading.Thread(target=self._send, name="evaluation-beside", daemon=True)
-        self._sender.start()
+        try:
+            self._sender.start()
+        except RuntimeError:
+            self._process.kill()
+            self._process.join()
+            raise
 
     def give(self, what: Segment | tuple[EvaluationSettings | None, BenchCapability | None]) -> None:
         self._given.put(what)
@@ -97,8 +112,9 @@ class _Worker:
     def result(self) -> AnyResult | None:
         """None where it could not be done there."""
         try:
-            found: AnyResult | None = self._wire.recv()
-        except (EOFError, OSError):
+            found: AnyResult = self._wire.recv()
+        except Exception:
+            # It has ended, or what came cannot be read: evaluated here, whatever is the matter is said.
             return None
         return found
 
@@ -114,7 +130,9 @@ class _Worker:
         for what in iter(self._given.get, None):
             try:
                 self._wire.send(what)
-            except OSError:  # it has ended: result() says so
+            except Exception:
+                # It has ended, or this cannot be sent: result() is not to wait for what never comes.
+                self._process.kill()
                 return
 
 

@@ -56,24 +56,26 @@ def run_plan(
     capability: BenchCapability | None = None,
     again_from: str = "",
     reason: str = "",
+    beside: bool = False,
 ) -> HeadlessOutcome:
     """Run ``plan`` on ``bench`` into ``out/recording``, evaluate it, leave result, plots and original record.
 
     A recording of the same plan that an earlier run left unfinished in ``out`` is gone on with. Raises what
     the run ended with; the bench is then safe and what was recorded is kept. ``again_from``: that segment and
-    all that follow it are recorded, once more where they are there, for ``reason``.
+    all that follow it are recorded, once more where they are there, for ``reason``. ``beside``: a second
+    process may evaluate while the run goes on (:mod:`~ahrs_lab.laboratory.evaluation_beside`).
     """
     check_plan(plan, bench.table.limits)
     bundle = out / "recording"
     header = recording_header(bench, plan, capability=capability)
     run = LiveRun(bench, plan, bundle, header, on_event=on_event, on_samples=_unheard, ask=False)
-    with EvaluationBeside(run, meanwhile=load_layout) as beside:
+    with EvaluationBeside(run, load_layout, allowed=beside) as evaluation:
         if again_from:
             run.start_from(again_from, reason)
         else:
             run.start()
         wait_for(run)
-        result = beside.evaluate(bundle, settings, capability)
+        result = evaluation.evaluate(bundle, settings, capability)
         return HeadlessOutcome(bundle, result, write_files(result, out))
 
 

@@ -18,7 +18,7 @@ def keep_memory() -> None:
     gc.set_threshold(100_000, 20, 20)
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None) if sys.platform == "linux" else None
-    if mallopt is not None:
+    # Where the first is refused, the second alone would make each large array a new one for good.
+    if mallopt is not None and mallopt(_MMAP_THRESHOLD, 2**28):
         mallopt(_TRIM_THRESHOLD, 2**30)
-        mallopt(_MMAP_THRESHOLD, 2**28)
         mallopt(_ARENA_MAX, 1)

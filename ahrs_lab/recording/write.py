@@ -261,6 +261,7 @@ class BundleWriter:
         for index, segment in enumerate(self._segments):
             if index == len(self._listed) or self._listed[index][0] is not segment:
                 text = "\n" + tomli_w.dumps({"segment": [segment_to_table(segment)]})
+                assert text.startswith("\n[[segment]]"), "else it would belong to the table above"
                 self._listed[index : index + 1] = [(segment, text)]
             parts.append(self._listed[index][1])
         document = "".join(parts).encode()

@@ -9,7 +9,7 @@ from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption,
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ahrs_lab.certificates.der import is_distinguished, length_of
+from ahrs_lab.certificates.der import is_distinguished, length_of, value
 
 
 def encoded(text: str) -> bytes:
@@ -36,8 +36,8 @@ def test_what_another_library_writes_is_distinguished(
         core.ObjectIdentifier("1.2.840.113549.1.9.16.2.47"),
         Members([core.OctetString(one) for one in members]),
     ]
-    for value in values:
-        data = value.dump()
+    for one in values:
+        data = one.dump()
         assert is_distinguished(data)
         assert length_of(data + b"\x00\x01") == len(data)
         assert not is_distinguished(data + b"\x00")
@@ -82,6 +82,11 @@ def test_another_way_to_write_the_same_is_not(canonical: str, other: str) -> Non
 def test_bytes_of_anybody_end(data: bytes) -> None:
     if is_distinguished(data):
         assert length_of(data) == len(data)
+
+
+@given(st.lists(st.binary(max_size=200), max_size=4))
+def test_a_value_is_made_as_another_library_makes_it(contents: list[bytes]) -> None:
+    assert value(0x04, *contents) == core.OctetString(b"".join(contents)).dump()
 
 
 def test_a_deep_nest_is_refused() -> None:

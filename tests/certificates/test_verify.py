@@ -21,6 +21,7 @@ from pyhanko.sign.validation import DocumentSecurityStore
 from ahrs_lab.certificates import verify
 from ahrs_lab.certificates.authority import Authority
 from ahrs_lab.certificates.certificate import certificate_pdf
+from ahrs_lab.certificates.der import SEQUENCE, SET, length_of, value
 from ahrs_lab.certificates.layout import Role
 from ahrs_lab.certificates.signing import sign_certificate
 from ahrs_lab.certificates.verify import verify_pdf
@@ -332,3 +333,56 @@ def test_what_no_signature_protects_is_compared(tmp_path: Path, signed: bytes, a
             changed = signed[: first + place] + instead + signed[first + place + 2 :]
             report = verify_pdf(put(tmp_path, changed), authority.trust_roots)
             assert not report.valid, f"byte {place}: {instead!r}"
+
+
+def with_container(signed: bytes, change: Callable[[bytes], bytes]) -> bytes:
+    """The last signature's container changed, in the room that its hole leaves."""
+    first, second = (int(v) for v in re.findall(rb"/ByteRange \[0 (\d+) (\d+)", signed)[-1])
+    digits = signed[first + 1 : second - 1]
+    container = bytes.fromhex(digits.decode("ascii"))
+    other = change(container[: length_of(container)]).hex().encode("ascii")
+    if digits == digits.upper():
+        other = other.upper()
+    assert len(other) <= len(digits)
+    return signed[: first + 1] + other.ljust(len(digits), b"0") + signed[second - 1 :]
+
+
+def parts_of(data: bytes) -> list[bytes]:
+    """The values inside a value."""
+    inside = data[2:] if data[1] < 0x80 else data[2 + (data[1] & 0x7F) :]
+    found = []
+    while inside:
+        found.append(inside[: length_of(inside)])
+        inside = inside[len(found[-1]) :]
+    return found
+
+
+def test_what_is_too_much_in_a_signatures_container_is_found(
+    tmp_path: Path, signed: bytes, authority: Authority
+) -> None:
+    """Parsers pass over it; 480 bytes of anything could stand there."""
+    hidden = value(0x04, b"hidden contents ")
+
+    def at_the_end(container: bytes) -> bytes:
+        return value(SEQUENCE, *parts_of(container), hidden)
+
+    def in_the_signed_data(container: bytes) -> bytes:
+        kind, content = parts_of(container)
+        return value(SEQUENCE, kind, value(0xA0, value(SEQUENCE, *parts_of(parts_of(content)[0]), hidden)))
+
+    def in_the_signer(container: bytes) -> bytes:
+        kind, content = parts_of(container)
+        *rest, signers = parts_of(parts_of(content)[0])
+        (signer,) = parts_of(signers)
+        more = value(SET, value(SEQUENCE, *parts_of(signer), hidden))
+        return value(SEQUENCE, kind, value(0xA0, value(SEQUENCE, *rest, more)))
+
+    def a_revocation_list(container: bytes) -> bytes:
+        kind, content = parts_of(container)
+        *rest, signers = parts_of(parts_of(content)[0])
+        return value(SEQUENCE, kind, value(0xA0, value(SEQUENCE, *rest, value(0xA1, hidden), signers)))
+
+    assert verify_pdf(put(tmp_path, with_container(signed, lambda c: c)), authority.trust_roots).valid
+    for change in (at_the_end, in_the_signed_data, in_the_signer, a_revocation_list):
+        report = verify_pdf(put(tmp_path, with_container(signed, change)), authority.trust_roots)
+        assert not report.valid, change.__name__

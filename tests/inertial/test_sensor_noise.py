@@ -149,3 +149,28 @@ def test_filtered_noise_does_not_depend_on_how_it_is_asked() -> None:
     for part in parts:
         source.add_to(part, np.empty(len(part)))
     np.testing.assert_array_equal(np.concatenate(parts), whole)
+
+
+@pytest.mark.parametrize("white", [0.0, 1e-160, 1e-20, 1e-12, 1e-9, 1e-7])
+@pytest.mark.parametrize("interval_s", [0.01, 0.001, 0.0005])
+def test_white_noise_that_is_all_but_none_changes_nothing(white: float, interval_s: float) -> None:
+    def deviation(white: float) -> float:
+        values = np.zeros(40_000)
+        coefficients = NoiseCoefficients(white=white, bias_instability=1.0)
+        WhiteNoise(coefficients, interval_s, np.random.SeedSequence(3)).add_to(values, np.empty(40_000))
+        return float(values.std())
+
+    assert deviation(white) == pytest.approx(deviation(0.0), rel=1e-3)
+
+
+@pytest.mark.parametrize("rate_hz", [10.0, 100.0, 500.0, 2000.0])
+def test_filtered_noise_is_stationary_from_its_first_sample(rate_hz: float) -> None:
+    coefficients = NoiseCoefficients(bias_instability=1.0)
+    seeds = np.random.SeedSequence(8).spawn(600)
+    noises = [WhiteNoise(coefficients, 1.0 / rate_hz, seed) for seed in seeds]
+    first, later = np.zeros((600, 1)), np.zeros((600, 3000))
+    for noise, begin, rest in zip(noises, first, later, strict=True):
+        noise.add_to(begin, np.empty(1))
+        noise.add_to(rest, np.empty(3000))
+    # six standard deviations of a ratio of 600 independent values to very many
+    assert float(first.std() / later.std()) == pytest.approx(1.0, abs=6.0 / np.sqrt(2 * 600))

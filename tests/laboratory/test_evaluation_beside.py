@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -52,7 +53,9 @@ def test_the_second_process_gives_the_result_of_an_evaluation(
 ) -> None:
     plan, bench = started(tmp_path)
     chosen = EvaluationSettings(rates="table", trials=0)
-    outcome = run_plan(plan, bench, tmp_path / "out", on_event=lambda _event: None, settings=chosen)
+    outcome = run_plan(
+        plan, bench, tmp_path / "out", on_event=lambda _event: None, settings=chosen, beside=True
+    )
     assert not evaluated_here
     assert not multiprocessing.active_children()
     assert outcome.result.deviations
@@ -69,9 +72,54 @@ def test_a_process_that_dies_leaves_the_evaluation_to_this_one(
             for child in multiprocessing.active_children():
                 child.kill()
 
-    outcome = run_plan(plan, bench, tmp_path / "out", on_event=hear)
+    outcome = run_plan(plan, bench, tmp_path / "out", on_event=hear, beside=True)
     assert evaluated_here == [outcome.bundle]
     assert to_json(outcome.result) == to_json(evaluate_bundle(outcome.bundle))
+
+
+@pytest.mark.parametrize("fault", [BlockingIOError("no more processes"), MemoryError()])
+def test_a_process_that_cannot_be_started_leaves_the_evaluation_to_this_one(
+    tmp_path: Path, evaluated_here: list[Path], monkeypatch: pytest.MonkeyPatch, fault: Exception
+) -> None:
+    def refuse(*_arguments: Any) -> None:
+        raise fault
+
+    monkeypatch.setattr(multiprocessing.process.BaseProcess, "start", refuse)
+    plan, bench = started(tmp_path)
+    outcome = run_plan(plan, bench, tmp_path / "out", on_event=lambda _event: None, beside=True)
+    assert evaluated_here == [outcome.bundle]
+
+
+def test_a_thread_that_cannot_be_started_takes_its_process_with_it(
+    tmp_path: Path, evaluated_here: list[Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    start = threading.Thread.start
+
+    def refuse(thread: threading.Thread) -> None:
+        if thread.name == "evaluation-beside":
+            raise RuntimeError("can't start new thread")
+        start(thread)
+
+    monkeypatch.setattr(threading.Thread, "start", refuse)
+    plan, bench = started(tmp_path)
+    outcome = run_plan(plan, bench, tmp_path / "out", on_event=lambda _event: None, beside=True)
+    assert evaluated_here == [outcome.bundle]
+    assert not multiprocessing.active_children()
+
+
+def test_what_cannot_be_sent_does_not_hang_the_run(
+    tmp_path: Path, evaluated_here: list[Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    give = evaluation_beside._Worker.give
+
+    def unsendable(worker: Any, what: Any) -> None:
+        unsent: Any = threading.Lock()
+        give(worker, unsent if isinstance(what, tuple) else what)
+
+    monkeypatch.setattr(evaluation_beside._Worker, "give", unsendable)
+    plan, bench = started(tmp_path)
+    outcome = run_plan(plan, bench, tmp_path / "out", on_event=lambda _event: None, beside=True)
+    assert evaluated_here == [outcome.bundle]
 
 
 def test_what_cannot_be_evaluated_is_said_as_ever(tmp_path: Path, evaluated_here: list[Path]) -> None:
@@ -85,7 +133,7 @@ def test_what_cannot_be_evaluated_is_said_as_ever(tmp_path: Path, evaluated_here
                 files[0].unlink(missing_ok=True)
 
     with pytest.raises(InputError, match="copy it into the recording"):
-        run_plan(plan, bench, tmp_path / "out", on_event=hear)
+        run_plan(plan, bench, tmp_path / "out", on_event=hear, beside=True)
     assert evaluated_here == [tmp_path / "out" / "recording"]
     assert not multiprocessing.active_children()
 

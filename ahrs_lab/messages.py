@@ -72,6 +72,11 @@ class Message:
     def __str__(self) -> str:
         return self.text()
 
+    @staticmethod
+    def counted(count: int, one: Message, many: Message) -> Message:
+        """``one`` where ``count`` is 1, else ``many``: English counts in two forms."""
+        return one if count == 1 else many
+
     def __repr__(self) -> str:
         return f"Message({self.text()!r})"
 

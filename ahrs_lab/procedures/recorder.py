@@ -259,6 +259,9 @@ class Recorder:
 
 
 def _lost_message(cut: _Cut) -> Message:
-    return Message(
-        "{lost} of {wanted} samples were lost on the way.", lost=cut.lost, wanted=cut.lost + cut.rows
+    wanted = cut.lost + cut.rows
+    return Message.counted(
+        cut.lost,
+        Message("1 of {wanted} samples was lost on the way.", wanted=wanted),
+        Message("{lost} of {wanted} samples were lost on the way.", lost=cut.lost, wanted=wanted),
     )

@@ -85,10 +85,17 @@ def _unfit(groups: _Groups) -> Message | None:
         return Message("no usable recording at rest before or after the rates is left.")
     rates = set(groups.demanded)
     if len(rates) < FEWEST_RATES or max(rates) <= 0.0 or min(rates) >= 0.0:
-        return Message(
-            "{count} usable rates are left, the standard asks for {fewest} or more in both senses.",
-            count=len(rates),
-            fewest=FEWEST_RATES,
+        return Message.counted(
+            len(rates),
+            Message(
+                "1 usable rate is left, the standard asks for {fewest} or more in both senses.",
+                fewest=FEWEST_RATES,
+            ),
+            Message(
+                "{count} usable rates are left, the standard asks for {fewest} or more in both senses.",
+                count=len(rates),
+                fewest=FEWEST_RATES,
+            ),
         )
     return None
 

@@ -191,6 +191,8 @@ def _azimuth_positions(axis: Axis, takes: Sequence[Take]) -> list[_Position]:
         direction = np.array([cosine * east - sine * north, sine * east + cosine * north, 0.0])
         positions.append(_Position(tuple(group), direction, azimuth))
     balance = float(np.linalg.norm(sum(position.direction for position in positions))) / len(positions)
+    if len(positions) == 1:
+        raise InputError("1 usable azimuth is left; equal steps round the whole circle are needed.")
     if len(positions) < 3 or balance > 1e-3:
         raise InputError(
             "{count} usable azimuths are left; equal steps round the whole circle are needed.",

@@ -87,10 +87,17 @@ def _report_bad_cells(raw: RawSegment, needed: tuple[str, ...], found: FindingLi
 
 def _bad_row(raw: RawSegment, row: int, columns: list[str], left_out: bool) -> Message:
     if row in raw.ragged:
-        return Message(
-            "the row has {cells} cells, the header row {columns}. The row is left out.",
-            cells=raw.ragged[row],
-            columns=len(raw.columns) + len(raw.left_out),
+        found, columns_named = raw.ragged[row], len(raw.columns) + len(raw.left_out)
+        return Message.counted(
+            found,
+            Message(
+                "the row has 1 cell, the header row {columns}. The row is left out.", columns=columns_named
+            ),
+            Message(
+                "the row has {cells} cells, the header row {columns}. The row is left out.",
+                cells=found,
+                columns=columns_named,
+            ),
         )
     cells = ", ".join(f"{name} = “{raw.texts.get((row, name), raw.columns[name][row])}”" for name in columns)
     if left_out:
@@ -123,25 +130,40 @@ def _report_backward_times(t_s: Array, lines: Rows, found: FindingList) -> Rows:
         )
     for first, last in _runs(late):
         time, previous = float(t_s[rest[first]]), float(before[first - 1])
-        count = last - first + 1
-        if time == previous:
-            what = Message(
-                "the time {time} s is repeated. {count} rows up to line {last} are left out.",
-                time=time,
-                count=count,
-                last=int(lines[rest[last]]),
-            )
-        else:
-            what = Message(
-                "the time goes backward, from {before} s to {after} s. "
-                "{count} rows up to line {last} are left out.",
-                before=previous,
-                after=time,
-                count=count,
-                last=int(lines[rest[last]]),
-            )
+        what = _not_later(previous, time, last - first + 1, int(lines[rest[last]]))
         found.add("time", what, int(lines[rest[first]]))
     return np.asarray(rest[~late])
+
+
+def _not_later(before_s: float, after_s: float, count: int, last: int) -> Message:
+    """What is said of ``count`` rows, the last in line ``last``, that do not come after the row before."""
+    if after_s == before_s:
+        return Message.counted(
+            count,
+            Message("the time {time} s is repeated. The row is left out.", time=after_s),
+            Message(
+                "the time {time} s is repeated. {count} rows up to line {last} are left out.",
+                time=after_s,
+                count=count,
+                last=last,
+            ),
+        )
+    return Message.counted(
+        count,
+        Message(
+            "the time goes backward, from {before} s to {after} s. The row is left out.",
+            before=before_s,
+            after=after_s,
+        ),
+        Message(
+            "the time goes backward, from {before} s to {after} s. "
+            "{count} rows up to line {last} are left out.",
+            before=before_s,
+            after=after_s,
+            count=count,
+            last=last,
+        ),
+    )
 
 
 def _runs(mask: Mask) -> list[tuple[int, int]]:
@@ -199,18 +221,38 @@ def _report_gaps(t_s: Array, lines: Rows, counted: Array | None, step_s: float, 
         if counted is not None and jump[index] and counted[index] > 0:
             missing = max(round(float(counted[index])) - 1, 0)
         total += missing
-        if gap[index]:
-            what = Message(
-                "a gap of {gap} s after {time} s: {missing} samples are missing.",
-                gap=round(float(steps[index]), 6),
-                time=float(t_s[index]),
-                missing=missing,
-            )
-        else:
-            what = Message(
-                "the counter jumps: {missing} samples are missing after {time} s.",
-                time=float(t_s[index]),
-                missing=missing,
-            )
+        what = _missing(float(t_s[index]), float(steps[index]) if gap[index] else None, missing)
         found.add("gap", what, int(lines[index + 1]))
     return total
+
+
+def _missing(time_s: float, gap_s: float | None, missing: int) -> Message:
+    """``gap_s`` is None where only the counter shows it."""
+    if gap_s is None:
+        return Message.counted(
+            missing,
+            Message(
+                "the counter jumps: {missing} sample is missing after {time} s.", time=time_s, missing=missing
+            ),
+            Message(
+                "the counter jumps: {missing} samples are missing after {time} s.",
+                time=time_s,
+                missing=missing,
+            ),
+        )
+    gap_s = round(gap_s, 6)
+    return Message.counted(
+        missing,
+        Message(
+            "a gap of {gap} s after {time} s: {missing} sample is missing.",
+            gap=gap_s,
+            time=time_s,
+            missing=missing,
+        ),
+        Message(
+            "a gap of {gap} s after {time} s: {missing} samples are missing.",
+            gap=gap_s,
+            time=time_s,
+            missing=missing,
+        ),
+    )

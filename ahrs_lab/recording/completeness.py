@@ -62,11 +62,19 @@ def _scale_factor(members: list[Segment]) -> list[_Lack]:
     ]
     rates = {segment.rate_dps for segment in members if segment.role == "rate"}
     if not FEWEST_RATES <= len(rates) <= MOST_RATES:
-        what = Message(
-            "{count} rates were recorded, the standard asks for {fewest} to {most}.",
-            count=len(rates),
-            fewest=FEWEST_RATES,
-            most=MOST_RATES,
+        what = Message.counted(
+            len(rates),
+            Message(
+                "1 rate was recorded, the standard asks for {fewest} to {most}.",
+                fewest=FEWEST_RATES,
+                most=MOST_RATES,
+            ),
+            Message(
+                "{count} rates were recorded, the standard asks for {fewest} to {most}.",
+                count=len(rates),
+                fewest=FEWEST_RATES,
+                most=MOST_RATES,
+            ),
         )
         lacks.append((what, "unusable" if len(rates) < FEWEST_RATES else "note"))
     if rates and (min(rates) >= 0 or max(rates) <= 0):

@@ -39,9 +39,13 @@ def check_minimum(segment: Segment, rows: CleanRows, found: FindingList) -> None
         if rows.lost > LOST_ANGLE * len(rows.lines):
             found.add(
                 "turns",
-                Message(
-                    "{lost} samples are missing while the table turned: the angle is not known.",
-                    lost=rows.lost,
+                Message.counted(
+                    rows.lost,
+                    Message("1 sample is missing while the table turned: the angle is not known."),
+                    Message(
+                        "{lost} samples are missing while the table turned: the angle is not known.",
+                        lost=rows.lost,
+                    ),
                 ),
                 line,
                 "unusable",

@@ -169,11 +169,21 @@ def _check_turns(segment: Segment, rows: CleanRows, rate_unit: RateUnit, found: 
 
 
 def _turned(turned_deg: float, turns: int) -> Message:
-    return Message(
-        "{turned}° were turned, not {turns} whole turns ({demanded}°).",
-        turned=round(turned_deg, 3),
-        turns=turns,
-        demanded=360 * turns,
+    turned, demanded = round(turned_deg, 3), 360 * turns
+    return Message.counted(
+        abs(turns),
+        Message(
+            "{turned}° were turned, not {turns} whole turn ({demanded}°).",
+            turned=turned,
+            turns=turns,
+            demanded=demanded,
+        ),
+        Message(
+            "{turned}° were turned, not {turns} whole turns ({demanded}°).",
+            turned=turned,
+            turns=turns,
+            demanded=demanded,
+        ),
     )
 
 

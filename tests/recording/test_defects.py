@@ -440,3 +440,20 @@ def test_interval_bridges_a_gap_or_not(tmp_path: Path) -> None:
     samples = read_one(tmp_path / "b", entry)[0].segments[0].samples
     assert interval_s(samples, 50.0).sum() == pytest.approx(30.0)
     assert interval_s(samples, 50.0, bridge_gaps=False).sum() == pytest.approx(29.9)
+
+
+def test_one_sample_and_one_row_are_said_in_the_singular(tmp_path: Path) -> None:
+    entry = change(take("zo_x_1"), "t_s", lambda t: np.where(np.arange(len(t)) == 700, t[699], t))
+    del entry.lines[100]
+    said = [str(finding.what) for finding in read_one(tmp_path / "b", entry)[1]]
+    assert any("1 sample is missing." in what for what in said)
+    assert any("is repeated. The row is left out." in what for what in said)
+    assert not any("1 samples" in what or "1 rows" in what for what in said)
+
+
+def test_more_samples_and_rows_are_said_in_the_plural(tmp_path: Path) -> None:
+    entry = change(take("zo_x_1"), "t_s", lambda t: np.where(np.abs(np.arange(len(t)) - 700) < 2, t[699], t))
+    del entry.lines[100:103]
+    said = [str(finding.what) for finding in read_one(tmp_path / "b", entry)[1]]
+    assert any("3 samples are missing." in what for what in said)
+    assert any("is repeated. 2 rows up to line" in what for what in said)

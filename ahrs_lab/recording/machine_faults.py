@@ -33,7 +33,8 @@ def machine_error(error: OSError, folder: Path) -> MachineError:
         )
     if error.errno == errno.ENOENT:
         return MachineError(
-            "{folder} is gone: was it moved, deleted, or its drive unplugged? Bring it back and resume.",
+            "{folder} is not there: was it moved, deleted, its drive unplugged, or its path mistyped? Bring "
+            "it back and resume, or choose another folder.",
             folder=folder,
         )
     if error.errno in (errno.ENOTDIR, errno.EEXIST):

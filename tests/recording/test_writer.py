@@ -394,9 +394,9 @@ def test_a_full_disk_at_the_end_leaves_the_segment_to_resume(
 def test_a_folder_that_vanishes_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     writer = killed_writer(tmp_path / "r", monkeypatch)
     (tmp_path / "r").rename(tmp_path / "elsewhere")
-    with pytest.raises(MachineError, match="is gone"):
+    with pytest.raises(MachineError, match="is not there"):
         writer.append(block(6.0, 30.0))
-    with pytest.raises(MachineError, match="is gone"):
+    with pytest.raises(MachineError, match="is not there"):
         writer.close()
     with BundleWriter.resume(tmp_path / "elsewhere") as resumed:
         assert len(resumed.segments) == 1
@@ -416,6 +416,15 @@ def test_a_read_only_folder_is_named(tmp_path: Path) -> None:
     (tmp_path / "r").mkdir(mode=0o555)
     with pytest.raises(MachineError, match="may not be written"):
         BundleWriter(tmp_path / "r", HEADER)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="nobody may make a folder there")
+def test_a_folder_that_never_was_and_cannot_be_made_is_not_said_to_be_gone() -> None:
+    folder = Path("/proc/x/recording")
+    with pytest.raises(MachineError) as caught:
+        BundleWriter(folder, HEADER)
+    assert str(caught.value).startswith(f"{folder} is not there: ")
+    assert "choose another folder" in str(caught.value)
 
 
 def test_a_file_in_the_folders_place_is_named(tmp_path: Path) -> None:

@@ -10,7 +10,6 @@ import numpy as np
 
 import ahrs_lab
 from ahrs_lab.errors import InputError
-from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import BenchCapability
 from ahrs_lab.metrology.figures_json import noted_capability, with_capability
 from ahrs_lab.metrology.result import (
@@ -33,9 +32,10 @@ from ahrs_lab.procedures.reduction_diagnosis import diagnose
 from ahrs_lab.procedures.reduction_evidence import Evidence, RateSource, unknown_resolution
 from ahrs_lab.procedures.reduction_misalignment import reduce_misalignments
 from ahrs_lab.procedures.reduction_scale_factor import reduce_scale_factor
-from ahrs_lab.procedures.reduction_selection import select
+from ahrs_lab.procedures.reduction_selection import listed, select
 from ahrs_lab.procedures.reduction_validation import not_validated
 from ahrs_lab.procedures.reduction_zero_offset import reduce_zero_offsets
+from ahrs_lab.recording.finding import Finding
 from ahrs_lab.recording.orientation import AXES, Axis
 from ahrs_lab.recording.read import Recording
 
@@ -143,21 +143,12 @@ def _check_finite(result: CalibrationResult) -> None:
 
 
 def _nothing(warnings: list[ResultWarning]) -> InputError:
-    reasons = [
-        Message("{file}, line {line}: {what}", file=warning.segment, line=warning.line, what=warning.what)
-        if warning.segment
-        else warning.what
-        for warning in warnings
-    ]
+    reasons = [Finding(warning.what, warning.segment, warning.line).placed for warning in warnings]
     if not reasons:
         return InputError(
             "The recording holds no segment that is evaluated by JJF 1536: check item, axis and role."
         )
-    return InputError(
-        "Nothing in the recording can be evaluated ({count} findings). {reason}",
-        count=len(reasons),
-        reason=reasons[0],
-    )
+    return InputError("Nothing in the recording can be evaluated. {reasons}", reasons=listed(reasons))
 
 
 def _schedule(notes: Mapping[str, Any]) -> str:

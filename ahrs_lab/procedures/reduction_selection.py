@@ -8,7 +8,7 @@ are evaluated, and the warnings name what is left out. Where nothing stands, the
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ahrs_lab.errors import InputError
@@ -25,6 +25,9 @@ PROCEDURE = "jjf1536-2015"
 
 _STOPPING = frozenset({"dwell", "sample_rate", "turns", "gap", "bad_cell", "time"})
 """Kinds of finding that, unusable, mean the standard's minimum is not reached."""
+
+_NAMED = 5
+"""A refusal is one line: this many reasons in full, then how many more."""
 
 
 @dataclass(frozen=True)
@@ -70,11 +73,10 @@ def select(recording: Recording) -> Selection:
         for finding in recording.findings
         if finding.severity == "unusable" and not finding.segment
     }
+    _refuse_below_minimum(recording)
     takes: list[Take] = []
     end_s, clock_s = 0.0, 0.0
     for recorded in recording.segments:
-        if recorded.segment.superseded or recorded.segment.interrupted:
-            continue
         if not _usable(recorded):
             continue
         output = device_output(recorded.samples, recording.header.device)
@@ -88,16 +90,43 @@ def select(recording: Recording) -> Selection:
     return Selection(tuple(takes), tuple(warnings), frozenset(lacking))
 
 
+def _refuse_below_minimum(recording: Recording) -> None:
+    """Raises InputError where a segment does not reach the standard's minimum, and names all that do not."""
+    stopping = [
+        finding
+        for recorded in recording.segments
+        if recorded.counts
+        for finding in recorded.findings
+        if finding.severity == "unusable" and finding.kind in _STOPPING
+    ]
+    if not stopping:
+        return
+    where = listed([finding.placed for finding in stopping])
+    if len({finding.segment for finding in stopping}) == 1:
+        raise InputError(
+            "{where} The standard's minimum is not reached: record the segment again, or take it out of "
+            "recording.toml.",
+            where=where,
+        )
+    raise InputError(
+        "{where} The standard's minimum is not reached: record these segments again, or take them out of "
+        "recording.toml.",
+        where=where,
+    )
+
+
+def listed(sentences: Sequence[Message]) -> Message:
+    """The sentences one after the other, of many the first ones and how many more there are."""
+    said = sentences[0]
+    for sentence in sentences[1:_NAMED]:
+        said = Message("{before} {sentence}", before=said, sentence=sentence)
+    if len(sentences) > _NAMED:
+        said = Message("{before} And {count} more.", before=said, count=len(sentences) - _NAMED)
+    return said
+
+
 def _usable(recorded: RecordedSegment) -> bool:
-    unusable = [finding for finding in recorded.findings if finding.severity == "unusable"]
-    for finding in unusable:
-        if finding.kind in _STOPPING:
-            raise InputError(
-                "{where} The standard's minimum is not reached: record the segment again, or take it out of "
-                "recording.toml.",
-                where=finding.placed,
-            )
-    return not unusable and len(recorded.samples) >= 2
+    return recorded.usable and len(recorded.samples) >= 2
 
 
 def _warning(finding: Finding) -> ResultWarning:

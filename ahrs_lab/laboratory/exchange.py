@@ -17,6 +17,7 @@ from ahrs_lab.records.rows import CustomerRow, DeviceRow, JobDraft, SignedIn
 
 if TYPE_CHECKING:
     from ahrs_lab.laboratory.laboratory import Laboratory
+    from ahrs_lab.recording.read import Recording
 
 
 def export_job(laboratory: Laboratory, number: str, target: Path) -> Path:
@@ -49,6 +50,7 @@ def import_bundle(laboratory: Laboratory, bundle: Path, actor: SignedIn | None) 
 
     folder = _folder(bundle)
     recording = read_bundle(bundle)
+    _refuse_incomplete(recording)
     result = evaluate_bundle(bundle, EvaluationSettings())
     person = actor or laboratory.records.people.machine_user()
     device = recording.header.device
@@ -87,6 +89,17 @@ def _folder(bundle: Path) -> Path | None:
     if bundle.is_dir():
         return bundle
     return bundle.parent if bundle.name == HEADER_FILE else None
+
+
+def _refuse_incomplete(recording: Recording) -> None:
+    """What the records keep is whole: a file that is not there now would be missed for good."""
+    for finding in recording.findings:
+        if finding.kind == "absent":
+            raise InputError(
+                "{where} lists {file}, which is not there: copy it into the recording.",
+                where=HEADER_FILE,
+                file=finding.segment,
+            )
 
 
 def _refuse_links(folder: Path) -> None:

@@ -186,7 +186,10 @@ def checked_members(archive: zipfile.ZipFile, path: Path) -> dict[str, zipfile.Z
 
 def content_sha256(source: BundleSource, files: Iterable[str]) -> str:
     """SHA-256 over ``recording.toml`` and the segment files in its order: of each its name in UTF-8, a zero
-    byte, its size as 8 bytes big-endian, and its bytes. As hexadecimal text."""
+    byte, its size as 8 bytes big-endian, and its bytes. As hexadecimal text.
+
+    Of a listed file that is not there nothing enters; name only those that are.
+    """
     total = hashlib.sha256()
     for name in (HEADER_FILE, *files):
         with source.open(name) as file:

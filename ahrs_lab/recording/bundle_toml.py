@@ -37,6 +37,8 @@ MAX_BYTES = 16 * 2**20
 _LARGEST = 1e6
 """No table turns faster (°/s) or more often; beyond, products of two such numbers need not be finite."""
 
+_ENTRY = re.compile(r"""[ \t]*\[\[[ \t]*(segment|"segment"|'segment')[ \t]*\]\]""")
+
 _TOP = ("format", "version", "procedure", "site", "device", "initial", "segment")
 _SITE = ("latitude_deg", "longitude_deg", "altitude_m")
 _DEVICE = (
@@ -106,6 +108,14 @@ def parse(data: bytes, where: str) -> tuple[RecordingHeader, tuple[Segment, ...]
     )
     _refuse_repeated_files(segments, where)
     return RecordingHeader(procedure, site, device, initial, notes), segments
+
+
+def entry_lines(data: bytes, count: int) -> list[int]:
+    """The line of each of the ``count`` [[segment]] entries of a ``recording.toml`` that :func:`parse` has
+    read; zeros where it is written in another way, so that a line cannot be told."""
+    text = data.decode("utf-8-sig")
+    lines = [number for number, line in enumerate(text.split("\n"), 1) if _ENTRY.match(line)]
+    return lines if len(lines) == count else [0] * count
 
 
 def compose(header: RecordingHeader, segments: Sequence[Segment]) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from ahrs_lab.messages import Message
 Severity = Literal["note", "unusable"]
 
 Kind = Literal[
+    "absent",  # recording.toml lists it, and it is not there
     "file",  # no sample can be read from it
     "bad_cell",  # not a number, not finite, or a row of the wrong length: the row is left out
     "time",  # repeated or backward time: the row is left out

@@ -1,12 +1,13 @@
 """Reading a recording back, with all its checks: the header strictly, the segments as far as they go.
 
-A fault of ``recording.toml`` or a file that is not there is an InputError. What is wrong with the samples
-becomes a :class:`~ahrs_lab.recording.finding.Finding` with file and line; the reduction decides.
+A fault of ``recording.toml``, or no file at all of those it lists, is an InputError. What is wrong with the
+samples, and that single files are not there, becomes a :class:`~ahrs_lab.recording.finding.Finding` with file
+and line; the reduction decides.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
@@ -24,11 +25,11 @@ from ahrs_lab.recording.bundle_source import (
     content_sha256,
     open_source,
 )
-from ahrs_lab.recording.bundle_toml import MAX_BYTES, parse
+from ahrs_lab.recording.bundle_toml import MAX_BYTES, entry_lines, parse
 from ahrs_lab.recording.clean_rows import CleanRows, clean_rows
 from ahrs_lab.recording.completeness import PROCEDURE, missing_segments
 from ahrs_lab.recording.csv_file import read_csv
-from ahrs_lab.recording.finding import Finding
+from ahrs_lab.recording.finding import Finding, Kind
 from ahrs_lab.recording.finding_list import FindingList
 from ahrs_lab.recording.gravity_check import check_gravity
 from ahrs_lab.recording.minimum_check import check_axis, check_minimum
@@ -177,20 +178,45 @@ def _read(source: BundleSource, ahead: ReadAhead | None) -> Recording:
     header, segments = _header(source)
     if not segments:
         raise InputError("{where} lists no segment: nothing was recorded.", where=source.path / HEADER_FILE)
-    for segment in segments:
-        if not source.has(segment.file):
-            raise InputError(
-                "{where} lists {file}, which is not there: copy it into the recording.",
-                where=source.path / HEADER_FILE,
-                file=segment.file,
-            )
+    absent = _absent(source, segments)
     general = missing_segments(segments) if header.procedure == PROCEDURE else ()
     with ThreadPoolExecutor(max_workers=_READERS, thread_name_prefix="recording-read") as pool:
-        digest = pool.submit(_digest, source.path, [segment.file for segment in segments])
+        there = [segment.file for segment in segments if segment.file not in absent]
+        digest = pool.submit(_digest, source.path, there)
         # An archive's handle is not for two threads.
         each = pool.map if isinstance(source, FolderSource) else map
-        recorded = tuple(each(partial(_segment, source, ahead, header), segments))
+        recorded = tuple(each(partial(_segment, source, ahead, header, absent), segments))
         return Recording(header, recorded, digest.result(), general, source.path)
+
+
+def _absent(source: BundleSource, segments: tuple[Segment, ...]) -> dict[str, RecordedSegment]:
+    """The segments whose file is not there, by file; raises InputError where none of the files is."""
+    gone = [index for index, segment in enumerate(segments) if not source.has(segment.file)]
+    if not gone:
+        return {}
+    if len(gone) == len(segments):
+        raise InputError(
+            "{where} lists {file}, which is not there, nor is any other file that it lists: copy them into "
+            "the recording.",
+            where=source.path / HEADER_FILE,
+            file=segments[0].file,
+        )
+    lines = entry_lines(source.head(HEADER_FILE, MAX_BYTES), len(segments))
+    return {segments[index].file: _without_file(segments[index], lines[index]) for index in gone}
+
+
+def _without_file(segment: Segment, line: int) -> RecordedSegment:
+    """``line``: of its entry in ``recording.toml``, 0 where that is not known."""
+    what = (
+        Message(
+            "the file is not there, though recording.toml lists it (line {line}): "
+            "copy it into the recording.",
+            line=line,
+        )
+        if line
+        else Message("the file is not there, though recording.toml lists it: copy it into the recording.")
+    )
+    return _without_samples(segment, FindingList(segment), "absent", what)
 
 
 def _digest(path: Path, files: list[str]) -> str:
@@ -210,8 +236,14 @@ def _header(source: BundleSource) -> tuple[RecordingHeader, tuple[Segment, ...]]
 
 
 def _segment(
-    source: BundleSource, ahead: ReadAhead | None, header: RecordingHeader, segment: Segment
+    source: BundleSource,
+    ahead: ReadAhead | None,
+    header: RecordingHeader,
+    absent: Mapping[str, RecordedSegment],
+    segment: Segment,
 ) -> RecordedSegment:
+    if segment.file in absent:
+        return absent[segment.file]
     found = None if ahead is None else ahead.get(segment, header)
     return _read_segment(source, segment, header) if found is None else found
 
@@ -231,7 +263,13 @@ def _read_csv(source: Path | bytes) -> RawSegment:
 
 
 def _unreadable(segment: Segment, found: FindingList, error: SegmentFileError) -> RecordedSegment:
-    found.add("file", error.message, error.line, "unusable")
+    return _without_samples(segment, found, "file", error.message, error.line)
+
+
+def _without_samples(
+    segment: Segment, found: FindingList, kind: Kind, what: Message, line: int = 0
+) -> RecordedSegment:
+    found.add(kind, what, line, "unusable")
     return RecordedSegment(segment, Samples(), found.finished(), np.empty(0, dtype=np.int64))
 
 

@@ -237,6 +237,27 @@ def without_entry(*names: str) -> Damage:
     return damage
 
 
+def without_files(pattern: str) -> Damage:
+    def damage(bundle: Path) -> None:
+        for path in list((bundle / "segments").glob(pattern)):
+            path.unlink()
+
+    return damage
+
+
+def all_of(*damages: Damage) -> Damage:
+    def damage(bundle: Path) -> None:
+        for one in damages:
+            one(bundle)
+
+    return damage
+
+
+def only_the_zero_offset(bundle: Path) -> None:
+    others = [path.stem for path in (bundle / "segments").glob("*.csv") if not path.name.startswith("zo_")]
+    without_entry(*others)(bundle)
+
+
 def cells(lines: list[str], column: str, value: Callable[[int], str], first: int, last: int) -> list[str]:
     """Lines ``first`` to ``last`` with other cells in ``column``; ``value`` of the line's number."""
     index = lines[0].split(",").index(column)
@@ -323,6 +344,23 @@ LEFT_OUT: list[tuple[str, Damage, str, int, str, str]] = [
         "",
     ),
     ("an empty file", in_lines(RATE, lambda _lines: []), f"segments/{RATE}", 1, "empty", ""),
+    ("a file that is not there", without_files(RATE), f"segments/{RATE}", 0, "recording.toml lists it", ""),
+    (
+        "a position's file that is not there",
+        without_files(REST),
+        f"segments/{REST}",
+        0,
+        "recording.toml lists it",
+        "zero_offset",
+    ),
+    (
+        "files of too many rates that are not there",
+        without_files("sf_x_0[3-6].csv"),
+        "segments/sf_x_06.csv",
+        0,
+        "recording.toml lists it",
+        "scale_factor",
+    ),
     (
         "a missing position",
         without_entry("zo_x_2"),
@@ -396,9 +434,24 @@ REFUSED: list[tuple[str, Damage, list[str]]] = [
         ["ma_x_pos.csv", "record the segment again"],
     ),
     (
-        "a file that is not there",
-        lambda bundle: (bundle / "segments" / REST).unlink(),
-        ["recording.toml", REST, "not there"],
+        "none of its files is there",
+        without_files("*.csv"),
+        ["recording.toml", "segments/sf_x_before.csv", "nor is any other file"],
+    ),
+    (
+        "nothing is left without the files that are not there",
+        all_of(only_the_zero_offset, without_files(REST)),
+        [f"segments/{REST}: the file is not there", "recording.toml", "zero offset x is not evaluated"],
+    ),
+    (
+        "more than one below the minimum",
+        all_of(in_lines(RATE, lambda ln: ln[:190]), in_lines(REST, lambda ln: ln[:190])),
+        [f"{RATE}, line 190: 18.9 s", f"{REST}, line 190: 18.9 s", "record these segments again"],
+    ),
+    (
+        "more below the minimum than are named",
+        all_of(*(in_lines(f"sf_x_0{i}.csv", lambda ln: ln[:190]) for i in range(7))),
+        [f"sf_x_0{i}.csv, line 190" for i in range(5)] + ["And 2 more.", "record these segments again"],
     ),
     ("no recording.toml", lambda bundle: (bundle / "recording.toml").unlink(), ["no recording.toml"]),
     ("a newer format", in_header("version = 1", "version = 2"), ["recording.toml", "version 2", "newer"]),
@@ -463,6 +516,15 @@ def test_verify_names_what_is_no_pdf(tmp_path: Path, capsys: Capture, content: b
     assert captured.out == ""
     assert captured.err.count("\n") == 1
     assert "certificate.pdf" in captured.err
+
+
+def test_an_incomplete_recording_is_not_taken_into_the_records(one_axis: Path, capsys: Capture) -> None:
+    (one_axis / "segments" / RATE).unlink()
+    assert main(["import", str(one_axis), "--json"]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+    assert f"recording.toml lists segments/{RATE}, which is not there" in captured.err
 
 
 def test_a_recording_is_taken_into_the_records_and_out_again(

@@ -266,6 +266,8 @@ class Laboratory:
 
         for recorded in read_bundle(self.bundle(number)).segments:
             if recorded.segment.file == file or recorded.segment.name == file:
+                if not len(recorded.samples):
+                    raise InputError("There is nothing to show. {what}", what=recorded.findings[0].placed)
                 return recorded.samples
         raise InputError("The recording of job {number} has no segment {file}.", number=number, file=file)
 

@@ -49,7 +49,7 @@ from ahrs_lab.certificates.result_tables import (
     scale_factor_table,
     zero_offset_table,
 )
-from ahrs_lab.certificates.richtext import RichText, Run, joined, markup, plain, symbol
+from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol
 from ahrs_lab.certificates.uncertainty_statement import run_on, uncertainty_statement, widened_quantities
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
@@ -339,9 +339,9 @@ def standards_blocks(standards: Iterable[Standard], writer: ResultWriter) -> tup
 
 
 def _accuracy(standard: Standard, language: CertificateLanguage) -> Label:
-    """In one script, mostly figures; ``U_rel`` and ``10^{−4}`` as they are written by hand."""
-    text = standard.accuracy if language == "en" else standard.accuracy_zh or standard.accuracy
-    return Label(markup(_RELATIVE.sub("U_{rel}", text)))
+    """``U_rel`` and ``10^{−4}`` as they are written by hand."""
+    zh, en = (_RELATIVE.sub("U_{rel}", text) for text in (standard.accuracy_zh, standard.accuracy))
+    return label(Words(zh or en, en), language)
 
 
 def _results(result: CalibrationResult, writer: ResultWriter) -> tuple[Block, ...]:

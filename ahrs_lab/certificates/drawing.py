@@ -41,9 +41,10 @@ _THIN = 0.9
 _GREY = 0.86
 """The second language is grey and smaller, so that the first leads the eye."""
 # Marks that must not begin a line, and those that must not end one (Chinese typesetting).
-_NEVER_FIRST = "，。、；：！？）】》”’·,.;:!?)]}%°′″"
+# A range as (10～1000) °/s is one word.
+_NEVER_FIRST = "，。、；：！？）】》”’·～,.;:!?)]}%°′″"
 _EQUALS = "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}"
-_NEVER_LAST = "（【《“‘([{±"
+_NEVER_LAST = "（【《“‘～([{±"
 
 
 def _is_cjk(character: str) -> bool:

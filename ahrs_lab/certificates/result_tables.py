@@ -38,8 +38,6 @@ _ANGLE_UNITS = {
     "deg": ("°", DEGREE),
 }
 DASH = "—"
-_ROOM_FOR_TWO_NAMES = 3
-"""Columns of numbers beside which a source is named in both languages."""
 
 _UNITS = {
     "deg/s": "°/s",
@@ -303,10 +301,9 @@ def budget_table(
     assumption a star.
     """
     sources: dict[tuple[str, ...], tuple[Label, str]] = {}
-    roomy = len(uncertainties) <= _ROOM_FOR_TWO_NAMES
     for uncertainty in uncertainties.values():
         for row in uncertainty.rows:
-            sources.setdefault(_source(row), (_source_name(row, marks, writer, both=roomy), row.kind))
+            sources.setdefault(_source(row), (_source_name(row, marks, writer), row.kind))
     columns = (
         Column(writer.words(wording.SOURCE)),
         Column(writer.words(wording.KIND)),
@@ -344,12 +341,8 @@ def _source(row: BudgetRow) -> tuple[str, ...]:
     return row.symbol, row.source.template, band, row.origin, row.certificate
 
 
-def _source_name(
-    row: BudgetRow, marks: Mapping[str, str], writer: ResultWriter, *, both: bool = False
-) -> Label:
-    words = Words(row.source.text("zh"), row.source.text("en"))
-    language = writer.language if both or writer.language == "en" else "zh"
-    name = label(words, language)
+def _source_name(row: BudgetRow, marks: Mapping[str, str], writer: ResultWriter) -> Label:
+    name = writer.words(Words(row.source.text("zh"), row.source.text("en")))
     if row.origin == "assumption":
         return Label(joined(name.main, " *"), name.second)
     mark = marks.get(row.certificate, "")

@@ -431,6 +431,45 @@ def test_a_budgets_line_says_which_certificate_states_it(result: CalibrationResu
     assert "a) GFJGJL-1; b) GFJGJL-2" in note
 
 
+def named_sources(result: CalibrationResult, template: str) -> CalibrationResult:
+    """``result`` with ``template`` as the first source of every misalignment's budget."""
+    changed = {}
+    for key, one in result.misalignment.items():
+        first, *others = one.uncertainty.rows
+        rows = (replace(first, source=Message(template)), *others)
+        changed[key] = replace(one, uncertainty=replace(one.uncertainty, rows=rows))
+    return replace(result, misalignment=changed)
+
+
+def test_the_sources_of_all_six_misalignments_are_named_in_both_languages(
+    result: CalibrationResult, job: JobSheet
+) -> None:
+    named = named_sources(result, "Sensor noise in the positive turns")
+    content = certificate_content(named, job, "bilingual")
+    cells = [row[0] for block in content.pages[1] if isinstance(block, Table) for row in block.rows]
+    found = next(cell for cell in cells if "Sensor noise" in text_of(cell.second))
+    assert text_of(found.main) == "正转时传感器的噪声"
+
+
+@pytest.mark.parametrize(
+    ("language", "main", "second"),
+    [
+        ("bilingual", "Urel = 0.1 %，纹波 1 mV", "Urel = 0.1 %, ripple 1 mV"),
+        ("zh", "Urel = 0.1 %，纹波 1 mV", ""),
+        ("en", "Urel = 0.1 %, ripple 1 mV", ""),
+    ],
+)
+def test_the_accuracy_of_a_standard_is_in_the_documents_languages(
+    result: CalibrationResult, job: JobSheet, language: CertificateLanguage, main: str, second: str
+) -> None:
+    one = replace(
+        job.standards[0], accuracy="U_rel = 0.1 %, ripple 1 mV", accuracy_zh="U_rel = 0.1 %，纹波 1 mV"
+    )
+    content = certificate_content(result, replace(job, standards=(one,)), language)
+    table = next(block for block in content.pages[0] if isinstance(block, Table))
+    assert (text_of(table.rows[0][3].main), text_of(table.rows[0][3].second)) == (main, second)
+
+
 def test_a_result_of_other_figures_than_the_jobs_is_not_certified(
     result: CalibrationResult, job: JobSheet
 ) -> None:

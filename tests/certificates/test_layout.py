@@ -271,6 +271,14 @@ def test_wrapped_lines_fit_and_keep_every_character(width: float) -> None:
         assert not any(text_of(line)[0] in "，。；）" for line in wrapped)
 
 
+@pytest.mark.parametrize("span", ["(10～1000)", "(10–1000)"])
+def test_a_range_is_not_parted(span: str) -> None:
+    register_fonts()
+    for width in range(70, 200, 5):
+        wrapped = wrap(plain(f"准确度等级 U = 2 %，{span} °/s，k = 2；U = 10″，k = 2"), 8.0, float(width))
+        assert any(span in text_of(line) for line in wrapped)
+
+
 def test_ticks_are_round_and_span_the_data() -> None:
     assert nice_ticks(-7.3, 11.0) == pytest.approx((-10, -5, 0, 5, 10, 15))
     assert nice_ticks(0.0, 0.0)

@@ -158,15 +158,16 @@ class LiveRun:
         """Tell ``on_event`` too, in the run's thread; before the start."""
         self._listeners.append(on_event)
 
-    def start(self) -> None:
-        """Begin, or go on with what an earlier run left in the folder."""
+    def start(self, before: Callable[[tuple[Step, ...]], None] | None = None) -> None:
+        """Begin, or go on with what an earlier run left in the folder; ``before`` hears what is to be done,
+        before the bench does anything."""
         limits = self._bench.table.limits
 
         def rest(writer: BundleWriter) -> _Work:
             done = sound(writer)
             return course.calibration(self.plan, done, limits), course.steps(self.plan, limits, done)
 
-        self._launch(rest)
+        self._launch(rest, before)
 
     def start_from(self, segment_name: str, reason: str) -> None:
         """Record that segment and all that follow it in the plan; earlier takes of them are kept."""
@@ -196,7 +197,11 @@ class LiveRun:
 
         self._launch(again)
 
-    def _launch(self, work: Callable[[BundleWriter], _Work]) -> None:
+    def _launch(
+        self,
+        work: Callable[[BundleWriter], _Work],
+        before: Callable[[tuple[Step, ...]], None] | None = None,
+    ) -> None:
         if not self._ended.is_set():
             raise InputError("A run is going on: stop it or wait for its end.")
         self._screen.reset()
@@ -205,6 +210,8 @@ class LiveRun:
         try:
             procedure, self.steps = work(writer)
             self.recorded_before = counting(writer.segments)
+            if before is not None:
+                before(self.steps)
         except BaseException:
             writer.close()
             raise

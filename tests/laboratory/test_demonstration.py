@@ -3,6 +3,7 @@
 import json
 import shutil
 import subprocess
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -48,6 +49,15 @@ def test_the_certificate_verifies_with_three_signatures(
     assert main(["verify", str(out / "certificate.pdf"), "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert len(report["signatures"]) == 3
+
+
+def test_nobody_signs_before_the_calibration_has_ended(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    notes = json.loads((out / "result.json").read_text(encoding="utf-8"))["notes"]
+    started, finished = (datetime.fromisoformat(notes[key]) for key in ("started_utc", "finished_utc"))
+    assert finished - started > timedelta(minutes=30)
+    assert main(["verify", str(out / "certificate.pdf"), "--json"]) == 0
+    for signature in json.loads(capsys.readouterr().out)["signatures"]:
+        assert finished <= datetime.fromisoformat(signature["signed_at"])
 
 
 def test_a_changed_byte_is_found(out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

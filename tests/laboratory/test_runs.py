@@ -10,7 +10,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from datetime import date, timedelta
+from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -173,6 +173,7 @@ def test_ctrl_c_in_a_headless_demonstration_and_the_same_command_again(
     assert (out / "recording/segments/zo_x_1.parquet").read_bytes() == kept
     assert counted(out / "recording") == SEGMENTS
     assert not (out / "earlier-1").exists()
+    assert datetime.fromisoformat(result["notes"]["finished_utc"]) <= datetime.now(UTC)
     with Laboratory() as laboratory:
         assert laboratory.jobs()[0].number == broken_off.number
         assert laboratory.job(broken_off.number).state == "issued"

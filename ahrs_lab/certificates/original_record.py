@@ -5,6 +5,7 @@ order, times, people, environment, warnings, and the fingerprint of the recordin
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from ahrs_lab.certificates import wording
@@ -33,6 +34,7 @@ from ahrs_lab.certificates.record_parts import (
     record_front,
     record_plan,
     short,
+    started_column,
 )
 from ahrs_lab.certificates.result_tables import AXES, ResultWriter, unit_text
 from ahrs_lab.certificates.richtext import RichText, Run, joined, plain, symbol, text_of
@@ -101,12 +103,16 @@ def _measured(result: CalibrationResult, writer: ResultWriter) -> Iterator[Block
         yield Heading(writer.words(wording.SCALE_FACTOR), "1")
     for axis in AXES:
         if axis in result.scale_factor:
-            yield from _rates(result.scale_factor[axis], writer)
+            one = result.scale_factor[axis]
+            # at rest before and after; where it was recorded more often, which is which is not kept
+            at_rates = one.segments[1:-1] if len(one.segments) == len(one.means) + 2 else ()
+            yield from _with_starts(_rates(one, writer), result, at_rates, writer)
     if result.zero_offset:
         yield Heading(writer.words(wording.ZERO_OFFSET), "2")
     for axis in AXES:
         if axis in result.zero_offset:
-            yield from _table_2(result.zero_offset[axis], writer)
+            offset = result.zero_offset[axis]
+            yield from _with_starts(_table_2(offset, writer), result, offset.segments, writer)
     if result.misalignment:
         yield Heading(writer.words(wording.MISALIGNMENT), "3")
     for axis in AXES:
@@ -114,7 +120,21 @@ def _measured(result: CalibrationResult, writer: ResultWriter) -> Iterator[Block
             result.misalignment[k] for k in MISALIGNMENT_KEYS if k in result.misalignment and k[1] == axis
         ]
         if turned:
-            yield from _table_3(axis, turned, writer)
+            yield from _with_starts(_table_3(axis, turned, writer), result, turned[0].segments, writer)
+
+
+def _with_starts(
+    blocks: Iterator[Block], result: CalibrationResult, segments: tuple[str, ...], writer: ResultWriter
+) -> Iterator[Block]:
+    """The table among ``blocks`` with the time at which each row's segment began, where each row has one."""
+    found = started_column(result, segments, writer.language)
+    for block in blocks:
+        if found is not None and isinstance(block, Table) and len(block.rows) == len(segments):
+            column, cells = found
+            rows = tuple((*row, cell) for row, cell in zip(block.rows, cells, strict=True))
+            yield replace(block, columns=(*block.columns, column), rows=rows)
+        else:
+            yield block
 
 
 def _titled(words: Words, writer: ResultWriter) -> Heading:

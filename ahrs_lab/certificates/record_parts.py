@@ -11,6 +11,7 @@ from typing import Any
 from ahrs_lab.certificates import wording
 from ahrs_lab.certificates.content import environment_text, is_demonstration, party_name, person_label
 from ahrs_lab.certificates.documents import (
+    EMPTY,
     Block,
     Column,
     DocumentFrame,
@@ -35,6 +36,7 @@ from ahrs_lab.metrology.rounding import format_grouped
 
 _DIGITS = 10
 _MOST_SETTINGS = 200
+_STARTS_ABREAST = 3
 _NUMBER = re.compile(r"-?\d+(\.\d+)?")
 
 
@@ -107,7 +109,7 @@ def _when_and_where(result: Reported, job: JobSheet | None, language: Certificat
         yield Field(label(wording.CALIBRATED, language), same(job.calibrated.isoformat()))
     for words, key in ((wording.STARTED, "started_utc"), (wording.FINISHED, "finished_utc")):
         if notes.get(key):
-            yield Field(label(words, language), same(f"{str(notes[key]).replace('T', ' ')[:19]} UTC"))
+            yield Field(label(words, language), same(f"{_moment(notes[key])} UTC"))
     if job is not None and job.place:
         yield Field(label(wording.PLACE, language), both(job.place, job.place_en, language))
     yield Field(label(wording.ENVIRONMENT, language), environment_text(result.environment, language))
@@ -152,7 +154,10 @@ def record_course(result: Reported, language: CertificateLanguage) -> Iterator[B
     """Order run, what was repeated and why, deviations, warnings."""
     notes = result.notes
     order = notes.get("order_run")
-    if isinstance(order, (list, tuple)) and order:
+    if starts := _entries(notes, "segment_starts"):
+        yield Heading(label(wording.ORDER_RUN, language))
+        yield _starts_table(starts, language)
+    elif isinstance(order, (list, tuple)) and order:  # a result of before the times were kept
         yield Heading(label(wording.ORDER_RUN, language))
         yield Paragraph(same(", ".join(str(name) for name in order)))
     yield Heading(label(wording.REPEATED, language))
@@ -182,6 +187,34 @@ def record_course(result: Reported, language: CertificateLanguage) -> Iterator[B
         warned,
         size=8.0,
     )
+
+
+def _starts_table(starts: list[Mapping[str, Any]], language: CertificateLanguage) -> Table:
+    """When each segment began, downward in columns side by side."""
+    columns = (
+        Column(label(wording.RAW_SEGMENT, language)),
+        Column(label(wording.STARTED, language), plain("UTC")),
+    )
+    height = math.ceil(len(starts) / _STARTS_ABREAST)
+    cells = [(same(str(e.get("segment", DASH))), same(_moment(e.get("started_utc", DASH)))) for e in starts]
+    cells += [(EMPTY, EMPTY)] * (height * _STARTS_ABREAST - len(cells))
+    rows = tuple(tuple(cell for pair in cells[row::height] for cell in pair) for row in range(height))
+    return Table(columns * _STARTS_ABREAST, rows, size=8.0, whole=True)
+
+
+def started_column(
+    result: Reported, segments: Sequence[str], language: CertificateLanguage
+) -> tuple[Column, list[Label]] | None:
+    """When each of ``segments`` began, as a column of their table; None where that is not known of all."""
+    starts = {str(e.get("segment")): e.get("started_utc") for e in _entries(result.notes, "segment_starts")}
+    if not segments or not all(starts.get(name) for name in segments):
+        return None
+    column = Column(label(wording.STARTED, language), plain("UTC"), "right")
+    return column, [same(_moment(starts[name])) for name in segments]
+
+
+def _moment(utc: object) -> str:
+    return str(utc).replace("T", " ")[:19]
 
 
 def _entries(notes: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:

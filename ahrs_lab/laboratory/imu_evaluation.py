@@ -27,6 +27,7 @@ from ahrs_lab.procedures.recorded_facts import (
     noted_deviations,
     noted_environment,
     run_warnings,
+    segment_starts,
     set_aside,
     site_facts,
 )
@@ -63,7 +64,7 @@ def evaluate_imu(recording: Recording, capability: BenchCapability | None, softw
         environment=noted_environment(header.notes),
         device=device_facts(header),
         site=site_facts(header),
-        notes=with_capability({**header.notes, **set_aside(recording)}, figures),
+        notes=with_capability({**header.notes, **set_aside(recording), **segment_starts(recording)}, figures),
         simulated=header.notes.get("simulated") is True,
     )
 

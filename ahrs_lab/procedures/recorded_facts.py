@@ -40,6 +40,18 @@ def set_aside(recording: Recording) -> dict[str, Any]:
     return {"repeated": takes} if takes else {}
 
 
+def segment_starts(recording: Recording) -> dict[str, Any]:
+    """When each whole take began, in the order recorded, for the original record; nothing where no take says
+    so."""
+    starts = [
+        {"segment": segment.name if recorded.counts else segment.file, "started_utc": segment.started_utc}
+        for recorded in recording.segments
+        for segment in (recorded.segment,)
+        if segment.started_utc and not segment.interrupted
+    ]
+    return {"segment_starts": starts} if starts else {}
+
+
 def noted_deviations(notes: Mapping[str, Any]) -> tuple[Message, ...]:
     """What left the procedure, as the run wrote it down; raises InputError for what is no list of
     sentences."""

@@ -25,6 +25,7 @@ from ahrs_lab.procedures.recorded_facts import (
     noted_deviations,
     noted_environment,
     run_warnings,
+    segment_starts,
     set_aside,
     site_facts,
 )
@@ -120,7 +121,9 @@ def _reduce(
         environment=noted_environment(header.notes),
         device=device_facts(header),
         site=site_facts(header),
-        notes=with_capability({**header.notes, **set_aside(recording)}, capability),
+        notes=with_capability(
+            {**header.notes, **set_aside(recording), **segment_starts(recording)}, capability
+        ),
         simulated=header.notes.get("simulated") is True,
         diagnosis=diagnosis,
     )

@@ -99,6 +99,54 @@ def test_the_course_of_the_run_is_kept(
     assert words in whole_text(original_record_pdf(noted, tmp_path / "r.pdf", job, "zh"))
 
 
+def test_each_segment_has_the_time_it_began_at(
+    tmp_path: Path, noted: CalibrationResult, job: JobSheet
+) -> None:
+    names = ["sf_x_before", "sf_x_00", "sf_x_01", "zo_x_1"]
+    starts = [
+        {"segment": name, "started_utc": f"2026-11-22T08:0{minute}:30.250000+00:00"}
+        for minute, name in enumerate(names)
+    ]
+    timed = replace(noted, notes={**NOTES, "segment_starts": starts})
+    printed = lines(original_record_pdf(timed, tmp_path / "r.pdf", job, "zh"))
+    start = printed.index("记录次序")
+    assert printed[start + 2 : start + 4] == [
+        "sf_x_before 2026-11-22 08:00:30 sf_x_01 2026-11-22 08:02:30",
+        "sf_x_00 2026-11-22 08:01:30 zo_x_1 2026-11-22 08:03:30",
+    ]
+
+
+def test_the_raw_values_have_the_times_of_their_segments(
+    tmp_path: Path, noted: CalibrationResult, job: JobSheet
+) -> None:
+    x, offset = noted.scale_factor["x"], noted.zero_offset["x"]
+    segments = ("sf_x_before", *x.segments, "sf_x_after")
+    starts = [
+        {"segment": name, "started_utc": f"2026-11-22T08:{minute:02d}:30+00:00"}
+        for minute, name in enumerate((*segments, *offset.segments, "ma_x_p", "ma_x_n"))
+    ]
+    timed = replace(
+        noted,
+        scale_factor={"x": replace(x, segments=segments)},
+        zero_offset={"x": offset},
+        notes={**NOTES, "segment_starts": starts},
+    )
+    printed = lines(original_record_pdf(timed, tmp_path / "r.pdf", job, "zh"))
+
+    def times(title: str, rows: int) -> list[str]:
+        start = printed.index(title) + 2
+        return [line[-19:] for line in printed[start : start + rows]]
+
+    def expected(first: int, count: int) -> list[str]:
+        return [f"2026-11-22 08:{minute:02d}:30" for minute in range(first, first + count)]
+
+    assert times("标度因数记录（7.1），X 轴", 10) == expected(1, 10)
+    assert times("表 2  X 轴零偏校准结果记录", 4) == expected(12, 4)
+    assert times("表 3  X 轴失准角校准结果记录", 2) == expected(16, 2)
+    turned_y = printed.index("表 3  Y 轴失准角校准结果记录")
+    assert "2026" not in "".join(printed[turned_y + 2 : turned_y + 4])
+
+
 def test_without_a_job_the_recording_speaks_for_itself(tmp_path: Path, result: CalibrationResult) -> None:
     text = whole_text(original_record_pdf(result, tmp_path / "r.pdf"))
     assert "0100012345" in text

@@ -60,6 +60,15 @@ def test_nobody_signs_before_the_calibration_has_ended(out: Path, capsys: pytest
         assert finished <= datetime.fromisoformat(signature["signed_at"])
 
 
+def test_the_result_says_when_each_of_its_segments_began(out: Path) -> None:
+    result = json.loads((out / "result.json").read_text(encoding="utf-8"))
+    starts = {one["segment"]: one["started_utc"] for one in result["notes"]["segment_starts"]}
+    assert list(starts) == result["notes"]["order_run"]
+    assert list(starts.values()) == sorted(starts.values())
+    for quantity in ("scale_factor", "zero_offset", "misalignment"):
+        assert all(starts[name] for found in result[quantity].values() for name in found["segments"])
+
+
 def test_a_changed_byte_is_found(out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     data = bytearray((out / "certificate.pdf").read_bytes())
     data[len(data) // 4] ^= 1

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
-from PySide6.QtGui import QColor
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QColor, QPainter, QPixmap
 from pytestqt.qtbot import QtBot
 
 from ahrs_lab.ui.plots.envelope import EnvelopeRing
@@ -94,3 +97,58 @@ def test_another_run_starts_with_an_empty_picture(plot: LivePlot, ring: Envelope
     plot.draw()
     plot.set_rings([EnvelopeRing(3)])
     assert painted(plot) == set()
+
+
+def numbers(plot: LivePlot) -> list[tuple[str, QRectF]]:
+    """What stands at the value axis, and where."""
+    sheet = QPixmap(100, 100)
+    painter = QPainter(sheet)
+    try:
+        texts = plot.panels[0].getAxis("left").generateDrawSpecs(painter)[2]
+    finally:
+        painter.end()
+    return [(text, rect) for rect, _, text in texts]
+
+
+def show_at(plot: LivePlot, look: Look, axis_px: int) -> None:
+    """Make the value axis that long."""
+    panel = plot.panels[0]
+    around = panel.height() - round(panel.getAxis("left").geometry().height())
+    panel.setFixedHeight(axis_px + around)
+    look.settle()
+    assert panel.getAxis("left").geometry().height() == pytest.approx(axis_px, abs=1.0)
+
+
+@pytest.mark.parametrize("span", [1.0, 200.0, 1e-3])
+@pytest.mark.parametrize("lowest", [-0.5, -1.0, 0.0, -0.13, 0.31, -2.9, 7.77])
+def test_numbers_of_an_axis_never_overlap(look: Look, qtbot: QtBot, span: float, lowest: float) -> None:
+    ring = EnvelopeRing(1)
+    t_s = np.arange(0.0, 60.0, 0.01)
+    ring.append(t_s, span * (lowest + np.where(t_s < 30.0, 0.0, 1.0))[None])
+    plot = LivePlot([PanelSpec(ring, (Channel(0, COLOURS[0]),), smallest=span / 100.0)])
+    qtbot.addWidget(plot)
+    plot.resize(600, 300)
+    plot.show()
+    look.settle()
+    plot.draw()
+    for axis_px in (*range(30, 80, 3), *range(80, 201, 20)):
+        show_at(plot, look, axis_px)
+        shown = numbers(plot)
+        assert shown, f"no number on {axis_px} px"
+        assert len({text for text, _ in shown}) == len(shown)
+        for (a, over), (b, under) in itertools.pairwise(sorted(shown, key=lambda number: number[1].top())):
+            assert not over.intersects(under), f"{a} over {b} on {axis_px} px"
+        assert len(shown) >= 2 or axis_px < 80
+
+
+@pytest.mark.parametrize(
+    ("axis_px", "texts"), [(30, {"0"}), (45, {"−200", "200"}), (160, {"−200", "−100", "0", "100", "200"})]
+)
+def test_a_low_axis_has_fewer_numbers(
+    look: Look, plot: LivePlot, ring: EnvelopeRing, axis_px: int, texts: set[str]
+) -> None:
+    fill(ring, -200.0)
+    ring.append(np.array([59.9]), np.full((3, 1), 200.0))
+    plot.draw()
+    show_at(plot, look, axis_px)
+    assert {text for text, _ in numbers(plot)} == texts

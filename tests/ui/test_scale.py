@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
+import itertools
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ahrs_lab.ui.plots.scale import SteppedRange, nice_range, nice_step, tick_step
+from ahrs_lab.ui.plots.scale import SteppedRange, nice_range, nice_step, ticks
 
 values = st.floats(-1e4, 1e4, allow_nan=False)
 
@@ -50,6 +50,24 @@ def test_range_shrinks_only_after_a_while() -> None:
 @pytest.mark.parametrize(
     ("low", "high"), [(-200.0, 200.0), (0.7, 1.5), (-0.01, 0.01), (0.55, 0.85), (3.0, 3.4)]
 )
-def test_an_axis_has_at_least_two_numbers(low: float, high: float) -> None:
-    step = tick_step(low, high, 2)
-    assert math.floor(high / step + 1e-9) - math.ceil(low / step - 1e-9) >= 1
+def test_an_axis_has_at_least_two_numbers_where_two_have_room(low: float, high: float) -> None:
+    for apart in (0.0, 0.2, 0.45):
+        assert len(ticks(low, high, apart * (high - low))[1]) >= 2
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "number"),
+    [(-200.0, 200.0, 0.0), (0.7, 1.5, 1.0), (-210.0, 30.0, 0.0), (3.1, 3.4, 3.2)],
+)
+def test_where_one_number_has_room_it_is_a_round_one(low: float, high: float, number: float) -> None:
+    assert ticks(low, high, 1.2 * (high - low))[1] == pytest.approx([number])
+
+
+@given(values, st.floats(1e-3, 1e3), st.floats(0.0, 3.0))
+def test_numbers_lie_on_the_axis_and_keep_their_distance(low: float, span: float, apart: float) -> None:
+    high, slack = low + span, 1e-6 * (span + abs(low))
+    step, found = ticks(low, high, apart * span)
+    assert 1 <= len(found) <= 5
+    assert low - slack <= found[0] <= found[-1] <= high + slack
+    assert all(b - a >= apart * span - slack for a, b in itertools.pairwise(found))
+    assert all(abs(value / step - round(value / step)) < 1e-6 for value in found)

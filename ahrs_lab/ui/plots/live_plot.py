@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QGraphicsItem, QVBoxLayout, QWidget
 
 from ahrs_lab.ui.formatting import MINUS
 from ahrs_lab.ui.plots.envelope import Envelope, EnvelopeRing
-from ahrs_lab.ui.plots.scale import SteppedRange, tick_step
+from ahrs_lab.ui.plots.scale import SteppedRange, ticks
 from ahrs_lab.ui.theme import STEP, font, tokens
 from ahrs_lab.ui.widgets.labels import Label
 
@@ -34,8 +34,11 @@ _CAPTION_PX = 20
 _TIME_AXIS_PX, _NO_AXIS_PX = 24, 4
 _PADDING = 0.12
 _LINE_PX, _LEAST_PX = 20, 44
-_TICK_PX = 26
-"""At least so much room for a number at the value axis."""
+_TICK_PX = 22
+"""At least so far from each other are two numbers at the value axis."""
+_DIVISIONS = 5
+_HALF_NUMBER_PX = 0.4 * _LINE_PX
+"""pyqtgraph leaves a number out that stands nearer to an end of its axis."""
 
 
 @dataclass(frozen=True)
@@ -168,6 +171,17 @@ class _Axis(pg.AxisItem):  # type: ignore[misc]
         return [text.replace("-", MINUS) for text in super().tickStrings(values, scale, spacing)]
 
 
+class _ValueAxis(_Axis):
+    """As many numbers as have room."""
+
+    def tickValues(self, minVal: float, maxVal: float, size: float) -> list[tuple[float, list[float]]]:
+        per_px = (maxVal - minVal) / size
+        inset = _HALF_NUMBER_PX * per_px
+        if not 2.0 * inset < maxVal - minVal:
+            return []
+        return [ticks(minVal + inset, maxVal - inset, _TICK_PX * per_px, _DIVISIONS)]
+
+
 class _TimeAxis(_Axis):
     """Ticks in seconds, the last one with the unit."""
 
@@ -180,7 +194,7 @@ class _Panel(pg.PlotWidget):  # type: ignore[misc]
     pointed = Signal(object)
 
     def __init__(self, spec: PanelSpec, span_s: float, *, last: bool) -> None:
-        axes = {"left": _Axis("left"), "bottom": _TimeAxis("bottom")}
+        axes = {"left": _ValueAxis("left"), "bottom": _TimeAxis("bottom")}
         super().__init__(axisItems=axes, enableMenu=False)
         self.ring = spec.ring
         self._spec = spec
@@ -229,9 +243,6 @@ class _Panel(pg.PlotWidget):  # type: ignore[misc]
 
     def _fit(self) -> None:
         room = max(_LEAST_PX, self.height() - self._around_px)
-        lines = max(2, min(4, room // _TICK_PX))
-        step = tick_step(self._range.low, self._range.high, lines)
-        self._axes["left"].setTickSpacing(step, step)
         # Room for half a line of text, else the outermost numbers are left out.
         self.setYRange(
             self._range.low, self._range.high, padding=max(_PADDING, 0.5 * _LINE_PX / (room - _LINE_PX))

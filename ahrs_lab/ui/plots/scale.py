@@ -21,15 +21,33 @@ def nice_step(span: float, divisions: int = 4) -> float:
     return 10.0 * power
 
 
-def tick_step(low: float, high: float, divisions: int) -> float:
-    """:func:`nice_step`, or the next smaller one of which two multiples lie within the range: one number
-    alone gives no scale."""
-    while divisions < 64:
-        step = nice_step(high - low, divisions)
-        if math.floor(high / step + 1e-9) - math.ceil(low / step - 1e-9) >= 1:
-            return step
-        divisions *= 2
-    return nice_step(high - low, divisions)
+def ticks(low: float, high: float, apart: float, divisions: int = 4) -> tuple[float, list[float]]:
+    """Step and values of the numbers at an axis from ``low`` to ``high``, at least ``apart`` from each other.
+
+    All multiples of a nice step, at most ``divisions`` steps. Where only one of them has room, two of a finer
+    step, as far from each other as they come (one number alone gives no scale), and where these have no room
+    either the roundest one.
+    """
+    span = high - low
+    step = nice_step(max(apart, span / divisions), 1)
+    found = _multiples(low, high, step)
+    if len(found) >= 2:
+        return step, found
+    # Finer ones would be odd numbers to read.
+    finest = max(step, span) / 10.0
+    one = step, found
+    while step > finest or not one[1]:
+        step = nice_step(step / 2.5, 1)
+        found = _multiples(low, high, step)
+        if found and found[-1] - found[0] >= max(apart, step):
+            return step, [found[0], found[-1]]
+        if not one[1]:
+            one = step, sorted(found, key=lambda value: abs(value - (low + high) / 2))[:1]
+    return one
+
+
+def _multiples(low: float, high: float, step: float) -> list[float]:
+    return [n * step for n in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
 
 
 def nice_range(low: float, high: float, smallest: float) -> tuple[float, float]:

@@ -31,7 +31,7 @@ from ahrs_lab.procedures.events import Activity, Event, MountingChecked, MountRe
 from ahrs_lab.procedures.figures import figure
 from ahrs_lab.procedures.mounting_check import MountingFinding, judge_mounting
 from ahrs_lab.procedures.recorder import Recorded, Recorder
-from ahrs_lab.procedures.settling import SteadyCurrent, angle_is_steady, rate_is_steady
+from ahrs_lab.procedures.settling import Obedience, SteadyCurrent, angle_is_steady, rate_is_steady
 from ahrs_lab.procedures.watch import Watch
 from ahrs_lab.recording.samples import Samples, concatenate
 
@@ -41,6 +41,8 @@ _LATE_TURN_S = 3.0
 _SEEN_S = 0.5
 """Wall time in which a wire brings enough reports to judge a table by."""
 _BACK_DPS = 10.0
+_OBEYS_S, _BEGINS_S = 2.0, 1.0
+"""Bench time over which a table is watched that has been told a rate, and that it has to begin."""
 
 
 class Waiting(Protocol):
@@ -217,16 +219,25 @@ class Execution:
     def _settle_rate(self, command: SettleRate) -> None:
         table, clock = self._bench.table, self._bench.clock
         command = replace(command, hold_s=patient_s(clock, command.hold_s, _SEEN_S))
-        change = abs(command.rate_dps - table.state().rate_dps)
+        came_from = table.state().rate_dps
         start = clock.now_s()
-        self._watch.trace.keep(command.hold_s + 1.0)
+        obedience = Obedience(command, came_from, patient_s(clock, _OBEYS_S, _SEEN_S))
+        judged_after_s = patient_s(clock, _BEGINS_S, _SEEN_S) + obedience.window_s
+        self._watch.trace.keep(max(command.hold_s, obedience.window_s) + 1.0)
         acceleration = max(table.limits.max_acceleration_dps2, 1e-3)
+        change = abs(command.rate_dps - came_from)
         wait = min(change / acceleration + command.hold_s + 0.05, command.timeout_s)
         while True:
             self._tell(Message("Rate settles at {rate} °/s", rate=figure(command.rate_dps)), wait)
-            self._watch.let_pass(wait)
+            # On a long ramp a table would run away unseen.
+            part = obedience.window_s / 2.0 if wait > judged_after_s else wait
+            self._watch.let_pass(part)
+            wait = max(wait - part, command.hold_s / 4.0)
             if rate_is_steady(self._watch.trace, clock.now_s(), command):
                 return
+            # Of one that a person sets this was asked before.
+            if clock.now_s() - start >= judged_after_s and self.by_hand.table is None:
+                obedience.check(self._watch.trace, clock.now_s())
             if clock.now_s() - start >= command.timeout_s:
                 raise InstrumentError(
                     "The table has not held {demanded} °/s within ±{tolerance} °/s for {hold} s; after "
@@ -238,7 +249,6 @@ class Execution:
                     timeout=figure(command.timeout_s),
                     actual=round(table.state().rate_dps, 4),
                 )
-            wait = command.hold_s / 4.0
 
     def _stop(self, command: Stop) -> None:
         self.halt(command.timeout_s)

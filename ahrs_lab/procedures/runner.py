@@ -48,6 +48,7 @@ from ahrs_lab.procedures.remaining import Remaining
 from ahrs_lab.procedures.room_log import RoomLog
 from ahrs_lab.procedures.run_states import RunStates, RunTrigger
 from ahrs_lab.procedures.safe_state import make_safe
+from ahrs_lab.procedures.settling import TableRunsAwayError
 from ahrs_lab.procedures.watch import Watch, check_table
 from ahrs_lab.recording.samples import Samples
 
@@ -196,6 +197,9 @@ class Runner:
             procedure.close()
         if unsafe and error is None:
             error = InstrumentError(unsafe[0])
+        elif unsafe and isinstance(error, TableRunsAwayError):
+            # Who reads one sentence has to read that it still turns.
+            error = TableRunsAwayError(Message("{first} {then}", first=unsafe[0], then=error.message))
         for split in self._split_over_power_cycles():
             self._warnings.append(Warned(split))
             self._tell_at_the_end(Warned(split))

@@ -77,6 +77,16 @@ class TableTrace:
         first = int(np.searchsorted(seen, t_s - 1e-9))
         return seen[first:], angles[first:], rates[first:]
 
+    def turned_since(self, t_s: float) -> tuple[float, float]:
+        """Angle over time since ``t_s``, and by how much doubtful times may have falsified it at most, °/s;
+        nothing and everything where there are no two reports."""
+        seen, angles, _, doubts = self._reports[:, np.searchsorted(self._reports[0], t_s - 1e-9) :]
+        if len(seen) < 2:
+            return 0.0, np.inf
+        passed = float(seen[-1] - seen[0])
+        rate = float(angles[-1] - angles[0]) / passed
+        return rate, abs(rate) * float(doubts[0] + doubts[-1]) / passed
+
     def mean_rate_dps(self, window_s: float) -> float | None:
         """Angle over time of the last ``window_s``; None before anything was reported."""
         if not len(self._reports[0]):

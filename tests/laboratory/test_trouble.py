@@ -176,6 +176,11 @@ def test_where_a_table_that_runs_away_cannot_be_stopped_it_is_said_and_the_suppl
     assert main(call(tmp_path)) == 3
     said = capsys.readouterr().err
     assert "warning: The table could not be stopped (it is still turning): use its own stop button." in said
+    last = said.splitlines()[-1]
+    assert last.startswith("ahrs-lab: The table could not be stopped (it is still turning)")
+    assert "The table turns the wrong way: it turns at" in last
+    assert "emergency stop" in last
+    assert "widen" not in last
     assert not benches[-1].supply.read().output_on
     assert not benches[-1].table.state().enabled
     assert counted(tmp_path / "out" / "recording") == UNTIL_THE_RATES | {"sf_x_02"}

@@ -9,8 +9,15 @@ from hypothesis import strategies as st
 
 from ahrs_lab.instruments.interfaces import SupplyReading, TableLog, TableState
 from ahrs_lab.procedures.commands import PointTo, SettleCurrent, SettleRate
-from ahrs_lab.procedures.settling import SteadyCurrent, angle_is_steady, rate_is_steady
+from ahrs_lab.procedures.settling import (
+    Obedience,
+    SteadyCurrent,
+    TableRunsAwayError,
+    angle_is_steady,
+    rate_is_steady,
+)
 from ahrs_lab.procedures.table_trace import TableTrace
+from tests.procedures.test_table_timing import late, off
 
 RATE = SettleRate(10.0, 0.01, 2.0, 60.0)
 
@@ -116,3 +123,124 @@ def test_the_tolerance_is_relative_and_to_either_side(half_spread: float, steady
 
 def test_no_current_is_never_steady() -> None:
     assert settles_at([0.0] * 100) is None
+
+
+# a table that turns as nobody demanded ──────────────────────────────────────────────────────────────────────
+
+
+def accused(demanded: float, came_from: float, rate: np.ndarray, made: TableTrace | None = None) -> str:
+    """What is said of rates reported for some seconds, looked at every half second; nothing: ""."""
+    seen = made or trace(T[: len(rate)], rate, np.cumsum(rate) * 0.01)
+    judge = Obedience(SettleRate(demanded, 0.01, 2.0, 240.0), came_from, 2.0)
+    for end in np.arange(2.0, len(rate) * 0.01, 0.5):
+        upto = TableTrace()
+        t, angle, rates = seen.since(-1.0)
+        known = t <= end
+        upto.add(
+            TableLog(t[known], angle[known], rates[known], doubts(seen)[known]),
+            TableState(t[known][-1], angle[known][-1], rates[known][-1], demanded, True, True),
+        )
+        try:
+            judge.check(upto, float(end))
+        except TableRunsAwayError as error:
+            return str(error)
+    return ""
+
+
+def doubts(seen: TableTrace) -> np.ndarray:
+    t, _, _ = seen.since(-1.0)
+    return seen.columns(t).get("table_doubt_s", np.zeros(len(t)))
+
+
+def ramp(start: float, end: float, acceleration: float) -> np.ndarray:
+    return np.asarray(start + np.sign(end - start) * np.minimum(acceleration * T, abs(end - start)))
+
+
+@pytest.mark.parametrize(
+    ("demanded", "came_from", "rate", "said"),
+    [
+        (-100.0, 100.0, np.full(500, 100.0), "turns the wrong way"),
+        (100.0, 0.0, ramp(0.0, -100.0, 50.0), "turns the wrong way"),
+        (0.5, 0.0, np.full(500, -0.5), "turns the wrong way"),
+        (10.0, 100.0, np.full(500, 100.0), "turns too fast"),
+        (10.0, 10.0, ramp(10.0, 200.0, 30.0), "turns too fast"),
+        (-10.0, 0.0, np.full(500, -16.0), "turns too fast"),
+        (10.0, 100.0, np.full(500, -30.0), "turns the wrong way"),
+    ],
+)
+def test_a_table_that_turns_wrongly_and_comes_no_nearer_is_accused(
+    demanded: float, came_from: float, rate: np.ndarray, said: str
+) -> None:
+    assert said in accused(demanded, came_from, rate)
+
+
+@pytest.mark.parametrize("noise_dps", [0.0, 2.0])
+@pytest.mark.parametrize("acceleration", [2.0, 10.0, 50.0, 400.0])
+@pytest.mark.parametrize(
+    ("came_from", "demanded"), [(0.0, 100.0), (100.0, -100.0), (-200.0, 200.0), (200.0, 10.0), (-5.0, 0.5)]
+)
+def test_a_ramp_is_never_accused(
+    came_from: float, demanded: float, acceleration: float, noise_dps: float
+) -> None:
+    true = ramp(came_from, demanded, acceleration)
+    reported = true + noise_dps * np.random.default_rng(7).standard_normal(len(true))
+    made = trace(T, reported, np.cumsum(true) * 0.01)
+    assert accused(demanded, came_from, reported, made) == ""
+
+
+@pytest.mark.parametrize(
+    "rate",
+    [
+        np.full(500, 10.05),
+        10.0 + 5.0 * np.sin(2 * np.pi * 0.7 * T),
+        10.0 + 8.0 * np.exp(-T),  # overshoots and comes back
+        np.full(500, 6.0),
+        np.zeros(500),
+        10.0 * (1.0 - np.exp(-0.5 * T)),
+        np.where(np.abs(T - 3.0) < 0.4, 25.0, 10.0),
+    ],
+)
+def test_a_table_near_its_rate_slow_or_swinging_is_not_accused(rate: np.ndarray) -> None:
+    assert accused(10.0, 0.0, rate) == ""
+
+
+def test_noise_hides_no_table_that_runs_away() -> None:
+    true = np.full(500, 100.0)
+    reported = true + 10.0 * np.random.default_rng(3).standard_normal(500)
+    assert "too fast" in accused(10.0, 100.0, reported, trace(T, reported, np.cumsum(true) * 0.01))
+
+
+def test_reports_without_an_angle_that_turns_so_prove_nothing() -> None:
+    assert accused(10.0, 0.0, np.full(500, 40.0), trace(T, np.full(500, 40.0), 10.0 * T)) == ""
+
+
+@pytest.mark.parametrize(("doubt_s", "told"), [(0.05, True), (1.0, False)])
+def test_an_angle_counts_as_far_as_its_times_are_known(doubt_s: float, told: bool) -> None:
+    made = TableTrace()
+    rate = np.full(500, 20.0)
+    made.add(
+        TableLog(T, 20.0 * T, rate, np.full(500, doubt_s)),
+        TableState(T[-1], 20.0 * T[-1], 20.0, 10.0, True, True, doubt_s=doubt_s),
+    )
+    assert bool(accused(10.0, 0.0, rate, made)) == told
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.5, -1.0])
+def test_a_table_over_a_late_wire_is_judged_by_what_it_does(factor: float) -> None:
+    wire = late(off(factor))
+    made = TableTrace()
+    judge = Obedience(SettleRate(100.0, 0.01, 2.0, 120.0), 0.0, 2.0)
+    wire.table.set_rate(100.0)
+    said = ""
+    while wire.clock.now_s() < 6.0 and not said:
+        wire.clock.t_s += 0.025
+        wire.table.poll()
+        made.add(wire.table.log(), wire.table.state())
+        if wire.clock.now_s() > 3.0:
+            try:
+                judge.check(made, wire.clock.now_s())
+            except TableRunsAwayError as error:
+                said = str(error)
+    wrong = {1.0: "", 1.5: "too fast", -1.0: "the wrong way"}[factor]
+    assert bool(said) == bool(wrong)
+    assert wrong in said

@@ -14,8 +14,16 @@ from ahrs_lab.errors import InstrumentError, MountingError
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures import course
 from ahrs_lab.procedures.commands import Procedure, Step
-from ahrs_lab.procedures.events import Event, MountingChecked, SegmentFinished, SegmentStarted, Warned
+from ahrs_lab.procedures.events import (
+    Activity,
+    Event,
+    MountingChecked,
+    SegmentFinished,
+    SegmentStarted,
+    Warned,
+)
 from ahrs_lab.procedures.runner import RunOutcome
+from ahrs_lab.procedures.settling import TableRunsAwayError
 from tests.procedures.fake_bench import Array, FakeBench
 from tests.procedures.runs import SMALL, Run, is_safe
 
@@ -71,6 +79,48 @@ def test_a_rate_that_is_never_reached() -> None:
     run = Run(SMALL)
     run.fake.table.rate_error_dps = 0.01
     failed(run, run.go(), "has not held 10 °/s within ±0.001 °/s for 2 s", "10.01 °/s", "widen")
+
+
+@pytest.mark.parametrize("step_s", [None, 0.5])
+@pytest.mark.parametrize(
+    ("rate_error_dps", "said"), [(-40.0, "turns the wrong way"), (60.0, "turns too fast")]
+)
+def test_a_table_that_turns_as_nobody_demanded_ends_the_run_within_seconds(
+    rate_error_dps: float, said: str, step_s: float | None
+) -> None:
+    run = Run(SMALL, FakeBench(step_s=step_s))
+    table = run.fake.table
+    demanded_s: list[float] = []
+
+    def hear(event: Event) -> None:
+        if isinstance(event, SegmentFinished) and event.segment.name == "sf_x_before":
+            table.rate_error_dps = rate_error_dps
+        if isinstance(event, Activity) and "Rate settles" in str(event.what):
+            demanded_s.append(run.fake.clock.now_s())
+
+    run.on_event = hear
+    outcome = run.go()
+    failed(run, outcome, said, "emergency stop", "do not go near", "is kept")
+    assert "widen" not in str(outcome.error)
+    assert "sf_x_before" in run.writer.finished
+    assert run.fake.clock.now_s() - demanded_s[0] < 5.0
+
+
+def test_a_table_that_takes_no_demand_any_more_is_said_first_to_turn_still() -> None:
+    run = Run(SMALL)
+
+    def run_away() -> None:
+        run.fake.table._go = lambda rate_dps: None  # type: ignore[method-assign]
+
+    at_segment(run, "sf_x_02", run_away)  # at −12 °/s, the next is +12 °/s
+    outcome = run.go()
+    assert outcome.state == "failed"
+    assert isinstance(outcome.error, TableRunsAwayError)
+    assert str(outcome.error).startswith("The table could not be stopped (it is still turning)")
+    assert "turns the wrong way: it turns at -12.0 °/s" in str(outcome.error)
+    assert "急停" in outcome.error.message.text("zh")
+    assert run.writer.finished[-1] == "sf_x_02"
+    assert run.fake.calls.commands[-1] == "supply.off"
 
 
 def test_a_table_that_does_not_turn_to_a_position() -> None:

@@ -10,7 +10,13 @@ from typing import Any
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.conditions import BenchCapability, Standard
-from ahrs_lab.metrology.stated_figures import FIGURES, RATE_FIGURES, FigureName, StatedFigure
+from ahrs_lab.metrology.stated_figures import (
+    CLAUSE_6_ONLY,
+    FIGURES,
+    RATE_FIGURES,
+    FigureName,
+    StatedFigure,
+)
 from ahrs_lab.metrology.uncertainty.bench_figure import BenchFigure
 
 
@@ -141,7 +147,7 @@ def _used(standards: Sequence[Standard], on_date: date | None) -> Iterator[UsedF
     for standard in standards:
         number = standard.certificate_number.strip()
         in_date = standard.due is not None and (on_date is None or standard.due >= on_date)
-        for stated in standard.figures:
+        for stated in (one for one in standard.figures if one.figure not in CLAUSE_6_ONLY):
             yield UsedFigure(
                 stated, f"{standard.name} s/n {standard.serial_number}", number, bool(number) and in_date
             )

@@ -7,14 +7,15 @@ is an assumption.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
 from typing import Literal
 
 from ahrs_lab.messages import Message
+from ahrs_lab.metrology.declared_place import DeclaredPlace, place_violations
 from ahrs_lab.metrology.result import Environment, Origin
-from ahrs_lab.metrology.stated_figures import StatedFigure
+from ahrs_lab.metrology.stated_figures import FIGURES, FigureName, StatedFigure
 from ahrs_lab.metrology.uncertainty.bench_figure import BenchFigure
 
 ARCSEC = math.radians(1.0 / 3600.0)
@@ -28,6 +29,12 @@ AVERAGING_ANGLES_DEG = (1.0, 10.0, 360.0)
 CLAUSE_6_RATE_RELATIVE = (2e-2, 2e-3, 2e-4)
 CLAUSE_6_POSITION_ARCSEC = 10.0
 CLAUSE_6_PERPENDICULARITY_ARCSEC = 5.0
+CLAUSE_6_STATED: Mapping[FigureName, float] = {
+    "fixture_flatness_mm": 0.01,
+    "supply_relative": 2e-3,
+    "supply_ripple_mv": 0.3,
+}
+"""Largest figures of the standards that no budget takes, in the unit of their name."""
 
 
 def rate_band(rate_dps: float) -> int:
@@ -119,18 +126,22 @@ def clause6_violations(
     environment: Environment | None = None,
     capability: BenchCapability | None = None,
     limits: RoomLimits | None = None,
+    place: DeclaredPlace | None = None,
+    place_needed: bool = False,
 ) -> tuple[Message, ...]:
     """What keeps a job from starting (clause 6), each a sentence; empty where the bench is as it has to be.
 
     A standard without a certificate number, without a due date or past it; a kind that is missing; the room,
-    where it is known, outside its limits with its spread; the bench worse than the clause's table 1.
+    where it is known, outside its limits with its spread; the bench, or a figure that a certificate states,
+    worse than the clause's; the ``place`` as it is declared, and not being declared where that is
+    ``place_needed``.
     """
-    found = _standards(standards, on_date)
+    found = _standards(standards, on_date) + _stated(standards)
     if environment is not None:
         found += _room(environment, limits or RoomLimits())
     if capability is not None:
         found += _bench(capability)
-    return tuple(found)
+    return (*found, *place_violations(place or DeclaredPlace(), needed=place_needed))
 
 
 def _standards(standards: Sequence[Standard], on_date: date) -> list[Message]:
@@ -162,6 +173,22 @@ def _standards(standards: Sequence[Standard], on_date: date) -> list[Message]:
                 )
             )
     return found
+
+
+def _stated(standards: Sequence[Standard]) -> list[Message]:
+    return [
+        Message(
+            "{name} s/n {serial_number} states {has} for “{figure}”; clause 6 asks for {needed}.",
+            name=standard.name,
+            serial_number=standard.serial_number,
+            figure=FIGURES[stated.figure].name,
+            has=f"{stated.claimed:.3g}",
+            needed=f"{CLAUSE_6_STATED[stated.figure]:g}",
+        )
+        for standard in standards
+        for stated in standard.figures
+        if stated.figure in CLAUSE_6_STATED and _worse(stated.claimed, CLAUSE_6_STATED[stated.figure])
+    ]
 
 
 def _room(environment: Environment, limits: RoomLimits) -> list[Message]:

@@ -28,6 +28,9 @@ FigureName = Literal[
     "fixture_perpendicularity_arcsec",
     "latitude_deg",
     "timing_relative",
+    "fixture_flatness_mm",
+    "supply_relative",
+    "supply_ripple_mv",
 ]
 
 RATE_FIGURES: tuple[FigureName, FigureName, FigureName] = (
@@ -50,6 +53,8 @@ UNITS: Mapping[str, Mapping[str, float]] = {
         "urad": math.degrees(1e-6) * 3600.0,
     },
     "deg": {"deg": 1.0, "arcmin": 1.0 / 60.0, "arcsec": 1.0 / 3600.0},
+    "mm": {"mm": 1.0, "um": 1e-3},
+    "mV": {"mV": 1.0, "uV": 1e-3},
 }
 """In which units a figure may be stated, by the unit it is used in; factors to that."""
 
@@ -79,7 +84,13 @@ FIGURES: Mapping[FigureName, FigureKind] = {
     ),
     "latitude_deg": FigureKind(Message("latitude"), "deg", ("north", "other")),
     "timing_relative": FigureKind(Message("time base, relative"), "1", ("table", "other")),
+    "fixture_flatness_mm": FigureKind(Message("flatness of the fixture"), "mm", ("fixture", "other")),
+    "supply_relative": FigureKind(Message("supply voltage, relative"), "1", ("supply", "other")),
+    "supply_ripple_mv": FigureKind(Message("ripple and noise of the supply"), "mV", ("supply", "other")),
 }
+
+CLAUSE_6_ONLY: tuple[FigureName, ...] = ("fixture_flatness_mm", "supply_relative", "supply_ripple_mv")
+"""Those that clause 6 asks for and no budget takes."""
 
 
 def figures_of_kind(kind: str) -> tuple[FigureName, ...]:
@@ -164,6 +175,13 @@ class StatedFigure:
     def divisor(self) -> float:
         """k, or that of the distribution of the limits."""
         return self.coverage_factor or DIVISORS[self.distribution]
+
+    @property
+    def claimed(self) -> float:
+        """What clause 6 looks at: U at k = 2, or the limit itself."""
+        if self.coverage_factor is None:
+            return self.limit_or_expanded
+        return 2.0 * self.limit_or_expanded / self.coverage_factor
 
     @property
     def budget_distribution(self) -> Distribution:

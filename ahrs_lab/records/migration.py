@@ -26,7 +26,12 @@ def _figures_and_limits(connection: Connection) -> None:
         connection.execute(text(f"ALTER TABLE {table} ADD COLUMN {column} TEXT NOT NULL DEFAULT ''"))
 
 
-STEPS: Mapping[int, Callable[[Connection], None]] = {1: _figures_and_limits}
+def _declared_place(connection: Connection) -> None:
+    """2 to 3: what the laboratory declares of its table's place."""
+    connection.execute(text("ALTER TABLE laboratory ADD COLUMN place_json TEXT NOT NULL DEFAULT ''"))
+
+
+STEPS: Mapping[int, Callable[[Connection], None]] = {1: _figures_and_limits, 2: _declared_place}
 """From this version to the next one."""
 
 

@@ -39,13 +39,15 @@ class SignedIn:
 @dataclass(frozen=True)
 class LaboratoryRow:
     """The laboratory as its certificates name it. ``capability_json``: the best measurement capability that
-    it states, a JSON text that the records keep as it is."""
+    it states; ``place_json``: what it declares of its table's place. JSON texts that the records keep as they
+    are."""
 
     name: str
     name_en: str = ""
     address: str = ""
     address_en: str = ""
     capability_json: str = ""
+    place_json: str = ""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from sqlalchemy import (
     UniqueConstraint,
 )
 
-VERSION = 2
+VERSION = 3
 
 metadata = MetaData()
 
@@ -33,6 +33,8 @@ laboratory = Table(
     *(_text(name) for name in ("name", "name_en", "address", "address_en")),
     # The best measurement capability it states; opaque here.
     _text("capability_json"),
+    # What it declares of its table's place; opaque here.
+    _text("place_json"),
 )
 
 people = Table(

@@ -14,6 +14,7 @@ from ahrs_lab.metrology.conditions import (
     clause6_violations,
     rate_band,
 )
+from ahrs_lab.metrology.declared_place import DeclaredPlace
 from ahrs_lab.metrology.result import Environment
 
 TODAY = date(2026, 3, 1)
@@ -78,6 +79,13 @@ def test_a_bench_worse_than_table_1_is_named(changes: dict[str, object], said: s
     capability = replace(BenchCapability(), **changes)  # type: ignore[arg-type]
     (found,) = clause6_violations(GOOD, on_date=TODAY, capability=capability)
     assert said in found.text()
+
+
+def test_the_declared_place_is_looked_at() -> None:
+    assert not clause6_violations(GOOD, on_date=TODAY, place=DeclaredPlace(1.0, True), place_needed=True)
+    (found,) = clause6_violations(GOOD, on_date=TODAY, place=DeclaredPlace(5.0, True))
+    assert "5.0 Ω" in found.text()
+    assert len(clause6_violations(GOOD, on_date=TODAY, place_needed=True)) == 2
 
 
 def test_the_bands_of_the_table() -> None:

@@ -127,7 +127,7 @@ def test_a_figure_stated_twice_is_refused_with_both_names() -> None:
 def test_a_supply_cannot_state_a_position() -> None:
     (found,) = figure_conflicts([standard("supply", POSITION)])
     assert "cannot state the figure “table position”" in found.text()
-    assert figures_of_kind("supply") == ()
+    assert figures_of_kind("supply") == ("supply_relative", "supply_ripple_mv")
     assert set(figures_of_kind("other")) == set(FIGURES)
 
 
@@ -188,3 +188,38 @@ def test_damaged_figures_in_the_records_are_named(text: str) -> None:
 def test_notes_that_hold_something_else_are_refused(data: object) -> None:
     with pytest.raises(InputError, match="capability"):
         noted_capability({"capability": data})
+
+
+@pytest.mark.parametrize(
+    ("kind", "good", "bad", "said"),
+    [
+        (
+            "fixture",
+            StatedFigure("fixture_flatness_mm", 10.0, "um", distribution="rectangular"),
+            StatedFigure("fixture_flatness_mm", 11.0, "um", distribution="rectangular"),
+            "states 0.011 for “flatness of the fixture”; clause 6 asks for 0.01.",
+        ),
+        (
+            "supply",
+            StatedFigure("supply_relative", 0.3, "%", 3.0),
+            StatedFigure("supply_relative", 0.3, "%", 2.0),
+            "states 0.003 for “supply voltage, relative”; clause 6 asks for 0.002.",
+        ),
+        (
+            "supply",
+            StatedFigure("supply_ripple_mv", 300.0, "uV", distribution="rectangular"),
+            StatedFigure("supply_ripple_mv", 0.4, "mV", 2.0),
+            "states 0.4 for “ripple and noise of the supply”; clause 6 asks for 0.3.",
+        ),
+    ],
+)
+def test_figures_that_only_clause_6_asks_for(
+    kind: StandardKind, good: StatedFigure, bad: StatedFigure, said: str
+) -> None:
+    others = [standard(one) for one in ("table", "supply", "fixture") if one != kind]
+    assert clause6_violations([*others, standard(kind, good)], on_date=DAY) == ()
+    (found,) = clause6_violations([*others, standard(kind, bad)], on_date=DAY)
+    assert said in found.text()
+    assert capability_of([standard(kind, bad)], DAY) == BenchCapability()  # no budget takes it
+    twice = figure_conflicts([standard(kind, good), standard("other", bad)])
+    assert len(twice) == 1

@@ -49,14 +49,43 @@ def test_version_1_keeps_everything(version_1: Path) -> None:
         assert records.audit.verify() == ()
 
 
-def test_version_1_is_backed_up_and_has_version_2s_columns(version_1: Path) -> None:
+def test_version_1_is_backed_up_and_has_this_versions_columns(version_1: Path) -> None:
     Records(version_1).close()
     backup = version_1.with_name("records.sqlite.version-1")
     for table in schema.metadata.tables.values():
         assert columns(version_1, table.name) == {column.name for column in table.columns}
     assert "figures_json" not in columns(backup, "standards")
     assert "limits_json" not in columns(backup, "jobs")
-    assert "capability_json" not in columns(backup, "laboratory")
+    assert not {"capability_json", "place_json"} & columns(backup, "laboratory")
+
+
+@pytest.fixture
+def version_2(version_1: Path) -> Path:
+    """What version 2 left behind: version 1's tables and what its step added, with the laboratory's
+    capability."""
+    with closing(sqlite3.connect(version_1)) as connection:
+        for table, column in (
+            ("standards", "figures_json"), ("jobs", "limits_json"), ("laboratory", "capability_json")
+        ):  # fmt: skip
+            connection.execute(f"ALTER TABLE {table} ADD COLUMN {column} TEXT NOT NULL DEFAULT ''")
+        connection.execute("UPDATE laboratory SET capability_json = '{}'")
+        connection.execute("UPDATE version SET number = 2")
+        connection.commit()
+    return version_1
+
+
+def test_version_2_declares_nothing_of_its_place_and_can(version_2: Path) -> None:
+    before = LaboratoryRow("校准实验室", "Laboratory", capability_json="{}", place_json="")
+    declared = replace(before, place_json='{"earth_resistance_ohm": 1.0}')
+    with Records(version_2) as records:
+        assert records.registry.laboratory() == before
+        administrator = records.people.sign_in("管理", "admin-1")
+        records.registry.set_laboratory(declared, administrator)
+    with Records(version_2) as records:
+        assert records.registry.laboratory() == declared
+        assert "earth_resistance_ohm" in records.audit.rows("laboratory")[-1].after
+        assert records.audit.verify() == ()
+    assert "place_json" not in columns(version_2.with_name("records.sqlite.version-2"), "laboratory")
 
 
 def test_version_1_is_worked_on(version_1: Path) -> None:

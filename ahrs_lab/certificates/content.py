@@ -16,6 +16,7 @@ from typing import Any
 from ahrs_lab.certificates import conformity_wording, wording
 from ahrs_lab.certificates.budget_annex import budget_annex
 from ahrs_lab.certificates.charts import position_blocks, residual_blocks
+from ahrs_lab.certificates.clause_6 import clause_6_fields, violations_of
 from ahrs_lab.certificates.conformity_tables import conformity_blocks
 from ahrs_lab.certificates.documents import (
     Block,
@@ -54,7 +55,7 @@ from ahrs_lab.certificates.uncertainty_statement import run_on, uncertainty_stat
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.best_capability import reported
-from ahrs_lab.metrology.conditions import Standard, clause6_violations
+from ahrs_lab.metrology.conditions import Standard
 from ahrs_lab.metrology.conformity import assess
 from ahrs_lab.metrology.figures_json import noted_capability, stated_figures
 from ahrs_lab.metrology.recorded_days import is_recorded_on, recorded_days
@@ -268,6 +269,7 @@ def front_fields(
                 line(wording.PROCEDURE, procedure or both(job.procedure, job.procedure_en, language)),
                 line(wording.PLACE, both(job.place, job.place_en, language) if job.place else same(DASH)),
                 line(wording.ENVIRONMENT, environment_text(result.environment, language)),
+                *clause_6_fields(result, job, language),
             )
         ),
     )
@@ -430,23 +432,6 @@ def _methods(
         blocks.append(Heading(label(wording.REMARKS, language)))
         blocks += [Paragraph(text, together=True) for text in remarks]
     return tuple(blocks)
-
-
-def violations_of(result: Reported, job: JobSheet) -> tuple[Message, ...]:
-    """What violates clause 6 and was not accepted (that stands with its reason); the room as measured."""
-    found = clause6_violations(
-        job.standards,
-        on_date=job.calibrated,
-        environment=result.environment,
-        capability=job.capability,
-    )
-    return tuple(
-        message
-        for message in found
-        if not any(
-            text.startswith((message.text("en"), message.text("zh"))) for text in job.accepted_violations
-        )
-    )
 
 
 def _with_mark(text: Label, mark: str) -> Label:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ahrs_lab.certificates import imu_wording, wording
+from ahrs_lab.certificates.clause_6 import violations_of
 from ahrs_lab.certificates.content import (
     add_measured,
     document_frame,
@@ -23,7 +24,6 @@ from ahrs_lab.certificates.content import (
     seal_of,
     signature_boxes,
     standards_blocks,
-    violations_of,
     warning_remarks,
 )
 from ahrs_lab.certificates.documents import (

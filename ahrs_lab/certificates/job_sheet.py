@@ -11,6 +11,7 @@ from typing import Literal
 
 from ahrs_lab.metrology.best_capability import BestCapability
 from ahrs_lab.metrology.conditions import BenchCapability, Standard
+from ahrs_lab.metrology.declared_place import DeclaredPlace
 from ahrs_lab.metrology.requirements import Requirements
 
 CertificateLanguage = Literal["bilingual", "zh", "en"]
@@ -76,6 +77,8 @@ class JobSheet:
     rounding: Literal["half-even", "up"] = "half-even"
     uncertainty_method: Literal["gum", "annex-a"] = "gum"
     notes: tuple[str, ...] = ()
+    declared_place: DeclaredPlace = field(default_factory=DeclaredPlace)
+    """Of the laboratory, where the recording holds none."""
     accepted_violations: tuple[str, ...] = ()
     """Violations of clause 6 with the reason and the second person who accepted them; printed."""
     demonstration: bool = False

@@ -17,6 +17,7 @@ from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.capability import capability_of
 from ahrs_lab.metrology.conditions import BenchCapability, Standard, StandardKind
+from ahrs_lab.metrology.declared_place import DeclaredPlace
 
 FORMAT = "ahrs-lab-job"
 VERSION = 1
@@ -202,6 +203,7 @@ def read_job_sheet(path: Path) -> JobSheet:
     standards = tuple(_standard(table, path) for table in top.tables("standard"))
     laboratory = top.table("laboratory")
     best_capability = read_best_capability(laboratory.table("capability", required=False))
+    declared_place = _declared_place(laboratory.table("place", required=False))
     defaults = JobSheet.__dataclass_fields__
     sheet = JobSheet(
         number=top.text("number"),
@@ -224,6 +226,7 @@ def read_job_sheet(path: Path) -> JobSheet:
         recalibration_months=top.whole("recalibration_months", 24, 1, 120),
         requirements=read_requirements(top),
         best_capability=best_capability,
+        declared_place=declared_place,
         rounding=top.choice("rounding", ("half-even", "up"), "half-even"),
         uncertainty_method=top.choice("uncertainty_method", ("gum", "annex-a"), "gum"),
         notes=top.texts("notes"),
@@ -269,6 +272,16 @@ def _party(table: _Table) -> Party:
     )
     table.finish()
     return party
+
+
+def _declared_place(table: _Table) -> DeclaredPlace:
+    """``[laboratory.place]``: earth resistance in Ω and whether the table's foundation is isolated."""
+    earth, isolated = table.number("earth_resistance_ohm", 0.0), table.flag("isolated_foundation")
+    table.finish()
+    return DeclaredPlace(
+        earth if table.has("earth_resistance_ohm") else None,
+        isolated if table.has("isolated_foundation") else None,
+    )
 
 
 def _person(table: _Table) -> Person:

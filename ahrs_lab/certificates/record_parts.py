@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ahrs_lab.certificates import wording
+from ahrs_lab.certificates.clause_6 import clause_6_fields, place_field
 from ahrs_lab.certificates.content import environment_text, is_demonstration, party_name, person_label
 from ahrs_lab.certificates.documents import (
     EMPTY,
@@ -113,6 +114,10 @@ def _when_and_where(result: Reported, job: JobSheet | None, language: Certificat
     if job is not None and job.place:
         yield Field(label(wording.PLACE, language), both(job.place, job.place_en, language))
     yield Field(label(wording.ENVIRONMENT, language), environment_text(result.environment, language))
+    if job is None:
+        yield place_field(result, job, language)
+    else:
+        yield from clause_6_fields(result, job, language)
 
 
 # ── numbers ──

@@ -38,6 +38,26 @@ ENVIRONMENT_VALUE = Words(
     "temperature ({temperature}) °C, humidity ({humidity}) %RH",
 )
 NOT_RECORDED = Words("未记录", "not recorded")
+DECLARED_PLACE = Words("场地条件", "Site conditions")
+NOT_DECLARED = Words("未声明", "not declared")
+EARTH_RESISTANCE = Words("接地电阻 {value} Ω", "Earth resistance {value} Ω")
+EARTH_NOT_DECLARED = Words("接地电阻未声明", "Earth resistance not declared")
+ISOLATED = Words("转台置于独立地基上", "table on an isolated foundation")
+NOT_ISOLATED = Words("转台未置于独立地基上", "table not on an isolated foundation")
+FOUNDATION_NOT_DECLARED = Words("转台地基未声明", "foundation of the table not declared")
+CLAUSE_6 = Words("校准条件", "Clause 6")
+CLAUSE_6_MET = Words(
+    "环境、场地和测量标准符合规范第 6 章的要求。",
+    "Room, site and measurement standards met the conditions of clause 6.",
+)
+CLAUSE_6_AS_KNOWN = Words(
+    "已知的校准条件符合规范第 6 章的要求。",
+    "As far as they are known, the conditions of clause 6 were met.",
+)
+CLAUSE_6_VIOLATED = Words(
+    "未全部符合规范第 6 章的要求，见“与规范的偏离”。",
+    "The conditions of clause 6 were not all met: see “Deviations from the standard”.",
+)
 OPERATOR = Words("校准员", "Operator")
 VERIFIER = Words("核验员", "Verifier")
 APPROVER = Words("签发人", "Approver")

@@ -65,6 +65,17 @@ def bench_from_toml(data: dict[str, Any], source: str, *, speed: float | None = 
     return build_bench(simulation_from_toml(settings), speed=speed)
 
 
+def is_simulated(text: str) -> bool:
+    """Whether the bench that ``text`` describes is not real; what cannot be read counts as real."""
+    try:
+        data = parse_toml(text)
+    except ValueError:
+        return False
+    operator = data.get("operator")
+    served = isinstance(operator, dict) and operator.get("kind") == "simulated-hands"
+    return served or data.get("kind", "simulated") == "simulated"
+
+
 def plan_from_text(text: str, source: str) -> Plan:
     """The plan that a job keeps; ``source`` names it in messages."""
     return plan_from_toml(_parsed(text, source))

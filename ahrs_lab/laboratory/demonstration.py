@@ -21,6 +21,7 @@ from ahrs_lab.laboratory.evaluation_beside import EvaluationBeside
 from ahrs_lab.laboratory.headless import wait_for
 from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.metrology.conformity import DecisionRule
+from ahrs_lab.metrology.declared_place import DeclaredPlace, place_to_json
 from ahrs_lab.metrology.figures_json import figures_text
 from ahrs_lab.metrology.limits import Limit
 from ahrs_lab.metrology.requirements import Requirements, requirements_to_json
@@ -125,6 +126,7 @@ def _fill(laboratory: Laboratory) -> SignedIn:
             "Demonstration Calibration Laboratory",
             "演示市示例路 8 号",
             "8 Example Road, Demo City",
+            place_json=place_to_json(DeclaredPlace(earth_resistance_ohm=1.0, isolated_foundation=True)),
         ),
         actor,
     )

@@ -7,11 +7,13 @@ from typing import cast
 
 from ahrs_lab.certificates.job_sheet import DeviceUnderTest, JobSheet, Party, Person
 from ahrs_lab.errors import InputError
+from ahrs_lab.laboratory.benches import is_simulated
 from ahrs_lab.laboratory.results import AnyResult
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.best_capability import capability_from_json
 from ahrs_lab.metrology.capability import capability_of, figure_conflicts
 from ahrs_lab.metrology.conditions import BenchCapability, Standard, StandardKind, clause6_violations
+from ahrs_lab.metrology.declared_place import place_from_json
 from ahrs_lab.metrology.figures_json import figures_from_text
 from ahrs_lab.metrology.imu_result import ImuResult
 from ahrs_lab.metrology.recorded_days import is_recorded_on, recorded_days
@@ -61,9 +63,10 @@ def capability(job: JobRow) -> BenchCapability:
     return capability_of(standards_of(job), job.calibrated or date.today())  # noqa: DTZ011
 
 
-def violations(job: JobRow, result: Reported | None) -> tuple[Message, ...]:
-    """What violates clause 6: standards missing or overdue, a bench that is worse, and, once measured, the
-    room; before them figures that cannot be used together."""
+def violations(job: JobRow, laboratory: LaboratoryRow, result: Reported | None) -> tuple[Message, ...]:
+    """What violates clause 6: standards missing or overdue, a bench that is worse, the place as the
+    laboratory declares it, which a real bench needs, and, once measured, the room; before them figures that
+    cannot be used together."""
     standards = standards_of(job)
     conflicts = figure_conflicts(standards)
     return conflicts + clause6_violations(
@@ -71,6 +74,8 @@ def violations(job: JobRow, result: Reported | None) -> tuple[Message, ...]:
         on_date=_calibrated(job, result),
         environment=result.environment if result is not None else None,
         capability=None if conflicts else capability(job),
+        place=place_from_json(laboratory.place_json),
+        place_needed=not is_simulated(job.bench_toml),
     )
 
 

@@ -175,7 +175,7 @@ class Laboratory:
 
     def clause6(self, number: str) -> tuple[Message, ...]:
         """What of the bench violates clause 6 today; empty when the job may start."""
-        return job_sheets.violations(self.job(number), self.result(number))
+        return job_sheets.violations(self.job(number), self.profile(), self.result(number))
 
     def start_run(
         self,

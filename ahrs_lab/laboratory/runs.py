@@ -9,6 +9,7 @@ from ahrs_lab.errors import InputError, PermissionDeniedError
 from ahrs_lab.laboratory import job_sheets
 from ahrs_lab.laboratory.header import recording_header
 from ahrs_lab.laboratory.live_run import LiveRun
+from ahrs_lab.metrology.declared_place import place_from_json, place_note
 from ahrs_lab.procedures.events import Event
 from ahrs_lab.procedures.plan import check_plan
 from ahrs_lab.recording.samples import Samples
@@ -34,9 +35,9 @@ def make_run(
 ) -> LiveRun:
     """The run of job ``number``, not started yet; the job is ``running`` from here.
 
-    The figures of the job's standards go into the recording. A bench that violates clause 6 needs
-    ``violations_reason`` from a ``second_person``. Raises InputError or PermissionDeniedError; nothing has
-    moved then.
+    The figures of the job's standards and the declared place go into the recording. A bench that violates
+    clause 6 needs ``violations_reason`` from a ``second_person``. Raises InputError or PermissionDeniedError;
+    nothing has moved then.
     """
     records = laboratory.records
     job, person = _permitted(laboratory, number, actor)
@@ -53,6 +54,7 @@ def make_run(
         job=number,
         operator=person.name,
         accepted_violations=accepted,
+        **place_note(place_from_json(laboratory.profile().place_json)),
     )
     run = LiveRun(
         bench,

@@ -10,10 +10,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from ahrs_lab.certificates.certificate import certificate_pdf
+from ahrs_lab.certificates.clause_6 import place_of
 from ahrs_lab.certificates.content import certificate_content, mismatches_of
 from ahrs_lab.certificates.documents import Paragraph, Table
 from ahrs_lab.certificates.job_sheet import CertificateLanguage, JobSheet
@@ -22,6 +24,7 @@ from ahrs_lab.certificates.richtext import number_of, text_of
 from ahrs_lab.errors import InputError
 from ahrs_lab.messages import Message
 from ahrs_lab.metrology.capability import capability_of
+from ahrs_lab.metrology.declared_place import DeclaredPlace, place_note, place_violations
 from ahrs_lab.metrology.figures_json import with_capability
 from ahrs_lab.metrology.result import CalibrationResult, Environment, Uncertainty
 from ahrs_lab.metrology.stated_figures import StatedFigure
@@ -322,6 +325,50 @@ def test_a_room_out_of_its_limits_stands_among_the_deviations(
     good = replace(result, deviations=())
     text = whole_text(certificate_pdf(good, job, tmp_path / "c.pdf", "en"))
     assert "Deviations from the standard None." in text
+
+
+def test_the_declared_place_is_printed_with_whether_clause_6_was_met(
+    tmp_path: Path, result: CalibrationResult, job: JobSheet
+) -> None:
+    def said(place: DeclaredPlace | None, language: CertificateLanguage = "en", **changes: Any) -> str:
+        notes = place_note(place) if place is not None else {}
+        sheet = replace(job, **changes)
+        return whole_text(certificate_pdf(replace(result, notes=notes), sheet, tmp_path / "c.pdf", language))
+
+    met = "Room, site and measurement standards met the conditions of clause 6."
+    text = said(DeclaredPlace(1.2, True))
+    assert "Earth resistance 1.2 Ω; table on an isolated foundation" in text
+    assert met in text
+    text = said(DeclaredPlace(1.2, True), "zh")
+    assert "接地电阻 1.2 Ω；转台置于独立地基上" in text
+    assert "符合规范第 6 章的要求" in text
+
+    text = said(None)
+    assert "Site conditions not declared" in text
+    assert "As far as they are known, the conditions of clause 6 were met." in text
+    text = said(DeclaredPlace(1.2))
+    assert "Earth resistance 1.2 Ω; foundation of the table not declared" in text
+    assert met not in text
+
+    text = said(DeclaredPlace(4.5, True))
+    assert "The conditions of clause 6 were not all met" in text
+    assert "The earth resistance is declared as 4.5 Ω" in text
+    (violation,) = place_violations(DeclaredPlace(4.5, True), needed=True)
+    reason = f"{violation.text()} – measured after rain (another person)"
+    text = said(DeclaredPlace(4.5, True), accepted_violations=(reason,))
+    assert "The conditions of clause 6 were not all met" in text
+    assert text.count("declared as 4.5 Ω") == 1
+    assert "measured after rain" in text
+
+
+def test_what_the_recording_declares_goes_before_the_job_sheet(
+    result: CalibrationResult, job: JobSheet
+) -> None:
+    sheet = replace(job, declared_place=DeclaredPlace(2.0, True))
+    assert place_of(result, sheet) == DeclaredPlace(2.0, True)
+    noted = replace(result, notes=place_note(DeclaredPlace(3.0, False)))
+    assert place_of(noted, sheet) == DeclaredPlace(3.0, False)
+    assert place_of(result, None) == DeclaredPlace()
 
 
 def test_the_printed_room_holds_all_that_was_measured(

@@ -14,6 +14,7 @@ from ahrs_lab.errors import InputError
 from ahrs_lab.laboratory.demonstration import REQUIREMENTS
 from ahrs_lab.metrology.best_capability import BestCapability
 from ahrs_lab.metrology.conformity import DecisionRule
+from ahrs_lab.metrology.declared_place import DeclaredPlace
 from ahrs_lab.metrology.limits import Limit
 from ahrs_lab.metrology.requirements import ResultUnits
 from ahrs_lab.resource_files import resource_path
@@ -46,6 +47,7 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
     assert job.approver.position_en == "Authorised signatory"
     assert job.recalibration_months == 24
     assert job.demonstration
+    assert job.declared_place == DeclaredPlace(1.0, True)
     assert not job.budget_annex
 
 
@@ -62,6 +64,9 @@ def test_the_demonstration_sheet_is_read_whole() -> None:
         ('rounding = "half-even"', 'rounding = "down"', "“rounding” must be one of half-even, up"),
         ("demonstration = true", "demonstration = 1", "“demonstration” must be true or false"),
         ("budget_annex = false", 'budget_annex = "yes"', "“budget_annex” must be true or false"),
+        ("earth_resistance_ohm = 1.0", "earth_resistance_ohm = -1", "earth_resistance_ohm” must be a number"),
+        ("isolated_foundation = true", "isolated_foundation = 1", "“laboratory.place.isolated_foundation”"),
+        ("isolated_foundation = true", "isolated = true", "“laboratory.place.isolated” is not known here"),
         ("recalibration_months = 24", "recalibration_months = 0", "a whole number from 1 to 120"),
         ("recalibration_months = 24", "recalibration_months = true", "a whole number from 1 to 120"),
         ("[customer]", "[custumer]", "“customer” is missing"),
@@ -189,3 +194,10 @@ def test_any_value_of_the_wrong_kind_is_refused_or_read(
 def test_a_number_that_cannot_be_is_refused(tmp_path: Path, number: str) -> None:
     with pytest.raises(InputError):
         read(tmp_path, changed("level_arcsec = 20.0", f"level_arcsec = {number}"))
+
+
+def test_a_place_that_is_not_declared_is_not_made_up(tmp_path: Path) -> None:
+    place = "earth_resistance_ohm = 1.0               # Ω, has to be below 4; left out: not declared\n"
+    assert read(tmp_path, changed(place, "")).declared_place == DeclaredPlace(None, True)
+    text = changed(place, "").replace("[laboratory.place]\nisolated_foundation = true", "")
+    assert read(tmp_path, text).declared_place == DeclaredPlace()

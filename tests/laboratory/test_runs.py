@@ -19,9 +19,11 @@ import pytest
 from ahrs_lab.cli import main
 from ahrs_lab.errors import InputError, PermissionDeniedError
 from ahrs_lab.instruments.interfaces import Bench
+from ahrs_lab.laboratory import job_sheets
 from ahrs_lab.laboratory.demonstration import APPROVER, OPERATOR, PASSWORD, VERIFIER
 from ahrs_lab.laboratory.laboratory import Laboratory
 from ahrs_lab.laboratory.live_run import LiveRun
+from ahrs_lab.metrology.declared_place import DeclaredPlace, noted_place, place_to_json
 from ahrs_lab.recording.read import read_bundle
 from ahrs_lab.records.rows import JobDraft, PersonRow, SignedIn, SigningRole
 from tests.laboratory.short_run import (
@@ -268,6 +270,50 @@ def test_an_expired_standard_needs_the_reason_of_a_second_person(
     for part in ("ran out", reason, VERIFIER.name):
         assert part in accepted[0]
     assert any(reason in event.detail for event in laboratory.records.jobs.run_events(number))
+
+
+def test_the_declared_place_is_recorded_and_a_violation_needs_a_second_person(
+    laboratory: Laboratory, operator: SignedIn
+) -> None:
+    number = changed(laboratory, laboratory.jobs()[0].number, operator)
+    assert laboratory.clause6(number) == ()
+    worse = DeclaredPlace(earth_resistance_ohm=6.0, isolated_foundation=True)
+    laboratory.set_profile(replace(laboratory.profile(), place_json=place_to_json(worse)), operator)
+    with pytest.raises(InputError, match=r"violates clause 6.*6\.0 Ω.*second person"):
+        start(laboratory, number, operator)
+    verifier = laboratory.sign_in(VERIFIER.name, PASSWORD)
+    run = start(laboratory, number, operator, violations_reason="dry season", second_person=verifier)
+    run.start()
+    assert run.join(60)
+    # What is declared later is not this run's.
+    laboratory.set_profile(replace(laboratory.profile(), place_json=""), operator)
+    result = laboratory.finish_run(number, operator)
+    assert noted_place(result.notes) == worse
+    (accepted,) = result.notes["accepted_violations"]
+    for part in ("6.0 Ω", "dry season", VERIFIER.name):
+        assert part in accepted
+
+
+def test_only_a_real_bench_needs_its_place_declared(laboratory: Laboratory, operator: SignedIn) -> None:
+    number = changed(laboratory, laboratory.jobs()[0].number, operator)
+    laboratory.set_profile(replace(laboratory.profile(), place_json=""), operator)
+    assert laboratory.clause6(number) == ()
+    job = laboratory.job(number)
+    for bench, count in (
+        ('kind = "instruments"\n', 2),
+        ('kind = "instruments"\n[operator]\nkind = "terminal"\n', 2),
+        ('kind = "instruments"\n[operator]\nkind = "simulated-hands"\n', 0),
+        ("no TOML", 2),
+        ('kind = "simulated"\n', 0),
+    ):
+        found = job_sheets.violations(replace(job, bench_toml=bench), laboratory.profile(), None)
+        assert len(found) == count, bench
+    assert (
+        "not declared"
+        in job_sheets.violations(replace(job, bench_toml='kind = "instruments"'), laboratory.profile(), None)[
+            0
+        ].text()
+    )
 
 
 def test_a_job_whose_program_was_killed_is_gone_on_with(laboratory: Laboratory, operator: SignedIn) -> None:

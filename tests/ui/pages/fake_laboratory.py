@@ -99,7 +99,7 @@ class FakeLaboratory:
         self.records.jobs.change(number, draft, actor)
 
     def clause6(self, number: str) -> tuple[Message, ...]:
-        return job_sheets.violations(self.job(number), None)
+        return job_sheets.violations(self.job(number), self.profile(), None)
 
     def result(self, number: str) -> CalibrationResult | None:
         rows = self.records.jobs.results(number)

@@ -11,7 +11,7 @@ from ahrs_lab.instruments.interfaces import TableLimits
 from ahrs_lab.laboratory import job_sheets
 from ahrs_lab.messages import Message
 from ahrs_lab.procedures.plan import Plan
-from ahrs_lab.records.rows import JobDraft, JobRow, PersonRow, StandardRow
+from ahrs_lab.records.rows import JobDraft, JobRow, LaboratoryRow, PersonRow, StandardRow
 
 Missing = Literal["customer", "device", "operator", "verifier", "approver", "standards", "bench"]
 
@@ -44,9 +44,11 @@ def missing(draft: JobDraft) -> tuple[Missing, ...]:
     return tuple(found)
 
 
-def clause6(draft: JobDraft, standards: Iterable[StandardRow]) -> tuple[Message, ...]:
+def clause6(
+    draft: JobDraft, laboratory: LaboratoryRow, standards: Iterable[StandardRow]
+) -> tuple[Message, ...]:
     """Clause 6's violations of a job that may not be saved yet."""
-    return job_sheets.violations(preview(draft, standards, ()), None)
+    return job_sheets.violations(preview(draft, standards, ()), laboratory, None)
 
 
 def preview(draft: JobDraft, standards: Iterable[StandardRow], people: Iterable[PersonRow]) -> JobRow:

@@ -213,7 +213,9 @@ class JobEditor(Translated):
         by_standard = found.plan is None or found.plan.procedure == "jjf1536-2015"
         readiness = Readiness(
             missing=checks.missing(draft),
-            violations=checks.clause6(draft, self._desk.laboratory.standards()),
+            violations=checks.clause6(
+                draft, self._desk.laboratory.profile(), self._desk.laboratory.standards()
+            ),
             plan_ok=runnable,
             deviations=found.deviations if runnable else (),
             estimate=(

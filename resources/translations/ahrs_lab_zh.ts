@@ -2607,6 +2607,38 @@ If it stands as drawn and the sensor still disagrees, the device&apos;s axes may
         <translation>英文地址</translation>
     </message>
     <message>
+        <source>Place of the table (clause 6)</source>
+        <translation>转台场地（第 6 章）</translation>
+    </message>
+    <message>
+        <source>Recorded with each run and printed on its certificate; a real bench does not start without it unless a second person says why.</source>
+        <translation>随每次运行记录并印在证书上；实际台架未声明时，须由第二人说明理由方可开始。</translation>
+    </message>
+    <message>
+        <source>Earth resistance, Ω</source>
+        <translation>接地电阻，Ω</translation>
+    </message>
+    <message>
+        <source>Has to be below 4 Ω.</source>
+        <translation>应小于 4 Ω。</translation>
+    </message>
+    <message>
+        <source>Table on an isolated foundation</source>
+        <translation>转台置于独立地基上</translation>
+    </message>
+    <message>
+        <source>Not said</source>
+        <translation>未声明</translation>
+    </message>
+    <message>
+        <source>Yes</source>
+        <translation>是</translation>
+    </message>
+    <message>
+        <source>No</source>
+        <translation>否</translation>
+    </message>
+    <message>
         <source>Best measurement capability (CMC)</source>
         <translation>最佳测量能力（CMC）</translation>
     </message>

@@ -25,7 +25,7 @@ from ahrs_lab.ui.theme import GAP
 from ahrs_lab.ui.translation import said
 from ahrs_lab.ui.widgets import Label
 
-_UNIT_SIGNS = {"arcsec": "″", "arcmin": "′", "deg": "°", "urad": "µrad"}
+_UNIT_SIGNS = {"arcsec": "″", "arcmin": "′", "deg": "°", "urad": "µrad", "um": "µm", "uV": "µV"}
 _ROWS_SHOWN_PX = 202
 _NUMBER_PX, _UNIT_PX, _STATED_PX = 80, 84, 176
 

@@ -10,13 +10,16 @@ from ahrs_lab.metrology.best_capability import (
     capability_from_json,
     capability_to_json,
 )
+from ahrs_lab.metrology.declared_place import DeclaredPlace, place_from_json, place_to_json
 from ahrs_lab.records.rows import LaboratoryRow
 from ahrs_lab.ui.page import Translated
 from ahrs_lab.ui.pages.desk import Desk
 from ahrs_lab.ui.pages.jobs.limits_model import number_of
-from ahrs_lab.ui.pages.widgets.form import TextField, grid
+from ahrs_lab.ui.pages.widgets.form import ChoiceField, TextField, grid
 from ahrs_lab.ui.theme import CARD_MARGIN
 from ahrs_lab.ui.widgets import Label, PrimaryButton
+
+_ISOLATED, _NOT_ISOLATED = "isolated", "not isolated"
 
 
 class ProfilePanel(Translated):
@@ -33,10 +36,15 @@ class ProfilePanel(Translated):
         self.address, self.address_en = TextField(), TextField()
         self.K, self.B, self.L = TextField(), TextField(), TextField()
         self._capability_head, self._capability_hint = Label(role="strong"), Label(tone="muted", wrap=True)
+        self.earth, self.foundation = TextField(), ChoiceField()
+        self._place_head, self._place_hint = Label(role="strong"), Label(tone="muted", wrap=True)
         self.save_button = PrimaryButton()
         self.save_button.clicked.connect(self.save)
         column.addWidget(self._hint)
         column.addLayout(grid((self.name, self.name_en), (self.address, self.address_en)))
+        column.addWidget(self._place_head)
+        column.addWidget(self._place_hint)
+        column.addLayout(grid((self.earth, self.foundation)))
         column.addWidget(self._capability_head)
         column.addWidget(self._capability_hint)
         column.addLayout(grid((self.K, self.B, self.L)))
@@ -46,11 +54,12 @@ class ProfilePanel(Translated):
         column.addLayout(row)
         column.addStretch(1)
         for field in (
-            self.name, self.name_en, self.address, self.address_en, self.K, self.B, self.L
+            self.name, self.name_en, self.address, self.address_en, self.earth, self.foundation,
+            self.K, self.B, self.L,
         ):  # fmt: skip
             field.edited.connect(lambda: self.save_button.setEnabled(True))
-        self.refresh()
         self.retranslate()
+        self.refresh()
 
     def refresh(self) -> None:
         """As the records have it."""
@@ -66,7 +75,23 @@ class ProfilePanel(Translated):
             stated = BestCapability()
         for field, value in ((self.K, stated.K_relative), (self.B, stated.B_dps), (self.L, stated.L_rad)):
             field.set_text(f"{value!r}" if value else "")
+        self._show_place(row.place_json)
         self.save_button.setEnabled(False)
+
+    def _show_place(self, text: str) -> None:
+        try:
+            place = place_from_json(text)
+        except AhrsLabError as error:
+            self._desk.tell(error)
+            place = DeclaredPlace()
+        ohm = place.earth_resistance_ohm
+        self.earth.set_text("" if ohm is None else f"{ohm:.12g}")
+        self.foundation.set_key({True: _ISOLATED, False: _NOT_ISOLATED, None: ""}[place.isolated_foundation])
+
+    def _place(self) -> str:
+        ohm = number_of(self.earth.text()) if self.earth.text() else None
+        isolated = {_ISOLATED: True, _NOT_ISOLATED: False}.get(self.foundation.key())
+        return place_to_json(DeclaredPlace(ohm, isolated))
 
     def _capability(self) -> str:
         numbers = [number_of(one.text()) if one.text() else 0.0 for one in (self.K, self.B, self.L)]
@@ -80,7 +105,7 @@ class ProfilePanel(Translated):
         try:
             row = LaboratoryRow(
                 self.name.text(), self.name_en.text(), self.address.text(), self.address_en.text(),
-                self._capability(),
+                self._capability(), self._place(),
             )  # fmt: skip
             self._desk.laboratory.set_profile(row, actor)
         except AhrsLabError as error:
@@ -97,6 +122,18 @@ class ProfilePanel(Translated):
         self.name_en.set_name(self.tr("Name in English"))
         self.address.set_name(self.tr("Address"))
         self.address_en.set_name(self.tr("Address in English"))
+        self._place_head.setText(self.tr("Place of the table (clause 6)"))
+        self._place_hint.setText(
+            self.tr(
+                "Recorded with each run and printed on its certificate; a real bench does not start without "
+                "it unless a second person says why."
+            )
+        )
+        self.earth.set_name(self.tr("Earth resistance, Ω"), self.tr("Has to be below 4 Ω."))
+        self.foundation.set_name(self.tr("Table on an isolated foundation"))
+        self.foundation.set_choices(
+            (("", self.tr("Not said")), (_ISOLATED, self.tr("Yes")), (_NOT_ISOLATED, self.tr("No")))
+        )
         self._capability_head.setText(self.tr("Best measurement capability (CMC)"))
         self._capability_hint.setText(
             self.tr("Expanded uncertainties, k = 2: no U is reported below them. Empty: none is stated.")

@@ -8,6 +8,7 @@ import pytest
 from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
+from ahrs_lab.metrology.declared_place import DeclaredPlace, place_from_json
 from ahrs_lab.metrology.figures_json import figures_from_text
 from ahrs_lab.metrology.stated_figures import StatedFigure
 from ahrs_lab.records.rows import SignedIn, StandardRow
@@ -92,6 +93,31 @@ def test_only_an_administrator_changes_the_laboratory(
     profile.name.set_text("Another laboratory")
     profile.save()
     assert screens.laboratory.profile().name == "Another laboratory"
+
+
+def test_the_place_of_the_table_is_declared(
+    screens: Screens, qtbot: QtBot, actors: dict[str, SignedIn]
+) -> None:
+    profile = screens.setup.profile
+    screens.desk.sign_in(actors["operator"])
+    assert (profile.earth.text(), profile.foundation.key()) == ("", "")
+    for text, key, place in (
+        ("1.2", "isolated", DeclaredPlace(1.2, True)),
+        ("", "not isolated", DeclaredPlace(None, False)),
+        ("0", "", DeclaredPlace(0.0)),
+    ):
+        profile.earth.set_text(text)
+        profile.foundation.set_key(key)
+        profile.save()
+        assert place_from_json(screens.laboratory.profile().place_json) == place
+        profile.refresh()
+        assert (profile.earth.text(), profile.foundation.key()) == (text, key)
+    for wrong in ("-1", "low"):
+        profile.earth.set_text(wrong)
+        profile.save()
+        assert screens.notices[-1][0] == "bad"
+        assert "earth resistance" in screens.notices[-1][1]
+    assert place_from_json(screens.laboratory.profile().place_json) == DeclaredPlace(0.0)
 
 
 def test_a_standard_is_edited_with_its_due_date(

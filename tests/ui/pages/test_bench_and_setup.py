@@ -183,14 +183,14 @@ def test_the_figures_of_a_certificate_are_entered_with_their_k(
     assert figures_from_text(screens.laboratory.standards()[0].figures_json, "") == (limit,)
 
 
-def test_a_supply_has_no_figures_to_enter(
+def test_a_thermometer_has_no_figures_to_enter(
     screens: Screens, qtbot: QtBot, actors: dict[str, SignedIn]
 ) -> None:
     dialog = StandardDialog(screens.desk, actors["operator"], screens.laboratory.standards()[0])
     qtbot.addWidget(dialog)
     dialog.show()
     assert dialog.figures.isVisible()
-    dialog.kind.set_key("supply")
+    dialog.kind.set_key("room")
     dialog.kind.edited.emit()
     assert not dialog.figures.isVisible()
     assert dialog.figures.figures() == ()

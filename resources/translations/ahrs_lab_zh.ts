@@ -792,8 +792,8 @@
         <translation>证书给出的数据</translation>
     </message>
     <message>
-        <source>They go into the uncertainty budgets; what stays empty there is clause 6&apos;s own figure, marked as an assumption.</source>
-        <translation>用于测量不确定度评定；留空的项采用规范第 6 章的数值，并标为假定值。</translation>
+        <source>They go into the uncertainty budgets or the check of clause 6; what a budget lacks is clause 6&apos;s own figure, marked as an assumption.</source>
+        <translation>用于测量不确定度评定或规范第 6 章条件的检查；不确定度评定所缺的项采用第 6 章的数值，并标为假定值。</translation>
     </message>
     <message>
         <source>Figure</source>

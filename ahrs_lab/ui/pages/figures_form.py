@@ -155,8 +155,8 @@ class FiguresForm(Translated):
         self._title.setText(self.tr("Figures that the certificate states"))
         self._hint.setText(
             self.tr(
-                "They go into the uncertainty budgets or the check of clause 6; what a budget lacks is clause 6's "
-                "own figure, marked as an assumption."
+                "They go into the uncertainty budgets or the check of clause 6; what a budget lacks is "
+                "clause 6's own figure, marked as an assumption."
             )
         )
         heads = (
